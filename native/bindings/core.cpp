@@ -1,0 +1,31 @@
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include "bindings/rooms.h"
+#include "core/cpu.h"
+#include "core/parallel.h"
+#include "core/process.h"
+#include "core/random.h"
+
+namespace py = pybind11;
+
+namespace stillwater {
+
+void bind_core(py::module_& module) {
+  module.def("set_threads", &set_threads, py::arg("threads"));
+  module.def("threads", &threads);
+  module.def("has_avx2", &has_avx2);
+  module.def("install_signal_handler", &install_signal_handler);
+  module.def(
+      "random_uniform",
+      [](std::uint64_t seed, std::int64_t a, std::int64_t b, std::int64_t c) { return random_uniform(seed, {a, b, c}); },
+      py::arg("seed"), py::arg("a") = 0, py::arg("b") = 0, py::arg("c") = 0);
+  module.def(
+      "random_gaussian",
+      [](std::uint64_t seed, std::int64_t a, std::int64_t b, std::int64_t c) {
+        return random_gaussian(seed, {a, b, c});
+      },
+      py::arg("seed"), py::arg("a") = 0, py::arg("b") = 0, py::arg("c") = 0);
+}
+
+}  // namespace stillwater

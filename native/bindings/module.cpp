@@ -1,0 +1,16 @@
+#include <pybind11/pybind11.h>
+
+#include "bindings/rooms.h"
+#include "core/error.h"
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_stillwater, module) {
+  module.doc() = "The engine of Stillwater. Use the package `stillwater`, which documents what is public.";
+  module.attr("__version__") = STILLWATER_VERSION;
+  py::register_exception<stillwater::BadInput>(module, "BadInput", PyExc_ValueError);
+  py::register_exception<stillwater::FileError>(module, "FileError", PyExc_OSError);
+  py::register_exception<stillwater::Cancelled>(module, "Cancelled", PyExc_RuntimeError);
+  py::register_exception<stillwater::NotConverged>(module, "NotConverged", PyExc_RuntimeError);
+  stillwater::bind_core(module);
+}

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+/// One function a room, each in the file of the room's name; module.cpp calls them in the rooms' order.
+namespace stillwater {
+
+void bind_core(pybind11::module_& module);
+
+}  // namespace stillwater

@@ -1,0 +1,22 @@
+#include "core/cpu.h"
+
+#include <cstdlib>
+#include <string_view>
+
+namespace stillwater {
+
+bool has_avx2() {
+  static const bool answer = [] {
+    const char* wish = std::getenv("STILLWATER_CPU");
+    if (wish && std::string_view(wish) == "sse4.2") return false;
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+#else
+    return false;
+#endif
+  }();
+  return answer;
+}
+
+}  // namespace stillwater

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <functional>
+
+/// The only door to threads. Work is cut into fixed pieces that do not depend on the number of threads, and no
+/// piece may read what another one writes: so the bytes are the same for any number of threads.
+/// No piece may touch Python.
+namespace stillwater {
+
+/// Calls `work(first, last)` for consecutive ranges of at most `grain` rows that cover [0, rows). An exception
+/// thrown by a piece reaches the caller.
+void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work);
+
+/// Threads that parallel_rows may use; 0 = one a core. Throws BadInput when negative or above 1024.
+void set_threads(int threads);
+int threads();
+
+}  // namespace stillwater

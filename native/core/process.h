@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+/// What the engine needs of the operating system; the only file with system calls of one kind of machine.
+namespace stillwater {
+
+/// From now on SIGINT and SIGTERM remove every registered temporary file and end the process at once, with exit
+/// code 130 or 143: safe at any moment, also in the middle of a long write. For the command line, not for a
+/// process that somebody else owns (Blender).
+void install_signal_handler();
+
+/// A file that the signal handler removes. At most 64 at a time, paths up to 4095 bytes; throws BadInput beyond.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& path);
+  ~TemporaryFile();  ///< forgets the path and removes the file where it is still there
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  /// Renames it to its final name, in one step, over whatever was there. Throws FileError.
+  void keep_as(const std::string& path);
+
+ private:
+  int slot_;
+};
+
+}  // namespace stillwater
