@@ -1,0 +1,27 @@
+# What Debian's package manager brings. Sourced by prepare.sh.
+
+build_packages="g++ cmake ninja-build pkg-config python3 python3-dev python3-venv
+  libopencv-dev libopenimageio-dev libfftw3-dev libeigen3-dev"
+run_packages="ffmpeg"
+blender_packages="libxi6 libxxf86vm1 libxfixes3 libxrender1 libxkbcommon0 libsm6 libice6 libgl1 libegl1
+  libegl-mesa0 libgl1-mesa-dri"
+test_packages="qemu-user openimageio-tools"
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# install_packages NAME...: only what is missing, so that a second run asks nobody.
+install_packages() {
+  local missing=()
+  local name
+  for name in "$@"; do
+    dpkg-query -W -f '${Status}' "$name" 2>/dev/null | grep -q 'install ok installed' || missing+=("$name")
+  done
+  [ ${#missing[@]} = 0 ] && return 0
+  command -v apt-get >/dev/null || { echo "apt-get is not here; please install: ${missing[*]}" >&2; return 1; }
+  echo "installing ${missing[*]}"
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+    >"$build/apt.log" 2>&1 || { tail -20 "$build/apt.log" >&2; return 1; }
+}
