@@ -9,7 +9,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tests/setup/prepare.sh
 
-prepare_engine pytest pytest-timeout hypothesis scipy || exit 1
+prepare_engine || exit 1
 case "${1:-}" in
   setup)
     echo "ready: $build/venv/bin/python -m stillwater"

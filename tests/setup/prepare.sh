@@ -34,7 +34,7 @@ venv() {
 
 prepare_engine() {
   install_packages $build_packages $run_packages
-  venv "$build/venv" numpy msgspec tqdm scikit-build-core pybind11 "$@"
+  venv "$build/venv" numpy msgspec tqdm scikit-build-core pybind11 pytest pytest-timeout hypothesis scipy pillow
   local state
   state="$(state_of native CMakeLists.txt)"
   once engine "$state" || return 0
