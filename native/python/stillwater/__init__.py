@@ -1,5 +1,32 @@
-"""Stillwater brings still pictures to life. The engine, without Blender."""
+"""Stillwater brings still pictures to life. The engine, without Blender.
 
-from ._stillwater import __version__
+Names are loaded when they are first used: `import stillwater` costs nothing, and the command line can catch an
+interrupt before the engine's libraries are in memory.
+"""
 
-__all__ = ["__version__"]
+from importlib import import_module
+
+# Public name -> the module that has it. Whoever adds a public function adds it here and in __init__.pyi.
+_HOMES = {
+    "__version__": "_stillwater",
+    "BadInput": "_stillwater",
+    "FileError": "_stillwater",
+    "Cancelled": "_stillwater",
+    "NotConverged": "_stillwater",
+    "Document": "recipe",
+    "RecipeError": "recipe",
+    "load": "recipe",
+    "parse": "recipe",
+}
+
+__all__ = sorted(_HOMES)
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module 'stillwater' has no attribute {name!r}")
+    return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+
+
+def __dir__():
+    return sorted({*globals(), *_HOMES})

@@ -1,0 +1,1 @@
+"""`python -m stillwater`: one file a command. main.py reads the arguments and says what went wrong."""

@@ -1,0 +1,20 @@
+"""Which parts of the recipe have an engine. Who builds one, adds it here."""
+
+from collections.abc import Iterator
+
+from .mattes import FileMatte, LabelMatte
+from .picture import Layer
+from .stochastic import Bob, Drift, Ripple, Still, Sway
+
+MOTIONS = (Still, Sway, Ripple, Bob, Drift)
+MATTES = (FileMatte, LabelMatte)
+
+
+def without_engine(layer: Layer, place: str) -> Iterator[str]:
+    """A sentence for each part of a layer that can't be rendered yet."""
+    if not isinstance(layer.motion, MOTIONS):
+        ready = ", ".join(kind.__struct_config__.tag for kind in MOTIONS)
+        yield f'{place}.motion.type: "{layer.motion.__struct_config__.tag}" has no engine yet (these have: {ready})'
+    if layer.matte is not None and not isinstance(layer.matte, MATTES):
+        form = next(key for key, kind in type(layer.matte).__mro__[1].forms.items() if isinstance(layer.matte, kind))
+        yield f"{place}.matte.{form}: this form of matte has no engine yet (these have: file, labels)"
