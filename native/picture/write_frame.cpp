@@ -48,6 +48,7 @@ OIIO::ImageSpec header(const FrameImages& images, const FrameOptions& options) {
   spec.nchannels = static_cast<int>(spec.channelnames.size());
   spec.attribute("compression", options.compression);
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709.data());
+  spec.attribute("DateTime", "");  // else the time of writing, and no two frames would be the same bytes
   if (!options.key.empty()) spec.attribute("stillwater:key", options.key);
   return spec;
 }
