@@ -1,21 +1,26 @@
 #include "core/process.h"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include "core/error.h"
 
 #if defined(_WIN32)
 #include <io.h>
+#include <windows.h>
 #define STILLWATER_UNLINK _unlink
+#define STILLWATER_READ _read
 #else
 #include <unistd.h>
 #define STILLWATER_UNLINK unlink
+#define STILLWATER_READ read
 #endif
 
 namespace stillwater {
@@ -42,6 +47,28 @@ extern "C" void leave_at_once(int signal_number) {
 void install_signal_handler() {
   std::signal(SIGINT, leave_at_once);
   std::signal(SIGTERM, leave_at_once);
+}
+
+void end_with_standard_input() {
+  std::thread([] {
+    char thrown_away[256];
+    long count = 1;
+    while (count > 0 || (count < 0 && errno == EINTR)) count = STILLWATER_READ(0, thrown_away, sizeof thrown_away);
+    leave_at_once(SIGTERM);
+  }).detach();
+}
+
+bool process_runs(long id) {
+#if defined(_WIN32)
+  const HANDLE process = OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(id));
+  if (process == nullptr) return GetLastError() == ERROR_ACCESS_DENIED;
+  DWORD code = 0;
+  const bool runs = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
+  CloseHandle(process);
+  return runs;
+#else
+  return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM;
+#endif
 }
 
 TemporaryFile::TemporaryFile(const std::string& path) : slot_(-1) {
