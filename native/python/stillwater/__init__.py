@@ -17,6 +17,8 @@ _HOMES = {
     "RecipeError": "recipe",
     "load": "recipe",
     "parse": "recipe",
+    "displace": "layers",
+    "over": "layers",
 }
 
 __all__ = sorted(_HOMES)
