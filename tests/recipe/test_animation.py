@@ -36,6 +36,11 @@ def test_more_values_never_change_the_integral_before_them():
     ]
 
 
+def test_a_keyed_number_that_stays_is_integrated_like_a_plain_one():
+    plain, held = Track.of(0.1), Track.of(Keys(first=-7, values=[0.1] * 30))
+    assert [plain.integral(frame) for frame in range(-500, 500)] == [held.integral(frame) for frame in range(-500, 500)]
+
+
 def test_earlier_values_never_change_the_integral_after_frame_1():
     values = np.random.default_rng(2).uniform(0, 1, 50).tolist()
     with_more, without = Track.of(Keys(first=-9, values=[7.0, *values])), Track.of(Keys(first=-8, values=values))
