@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include "core/error.h"
 
@@ -18,9 +19,11 @@
 #include <process.h>
 #include <windows.h>
 #define STILLWATER_UNLINK _unlink
+#define STILLWATER_READ _read
 #else
 #include <unistd.h>
 #define STILLWATER_UNLINK unlink
+#define STILLWATER_READ read
 #endif
 
 namespace stillwater {
@@ -52,15 +55,6 @@ std::string host_name() {
   return GetComputerNameA(name, &length) ? std::string(name, length) : "localhost";
 }
 
-bool is_running(long id) {
-  const HANDLE process = OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(id));
-  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
-  DWORD code = 0;
-  const bool running = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
-  CloseHandle(process);
-  return running;
-}
-
 #else
 
 long own_id() { return getpid(); }
@@ -71,8 +65,6 @@ std::string host_name() {
   name[sizeof name - 1] = '\0';
   return name;
 }
-
-bool is_running(long id) { return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM; }
 
 #endif
 
@@ -101,7 +93,7 @@ bool is_registered(const std::filesystem::path& file) {
 /// A process may have had our own number before us: what we have not registered is not ours.
 bool is_left_over(const std::filesystem::path& file) {
   const long writer = writer_of(file.filename().string());
-  return writer > 0 && (writer == own_id() ? !is_registered(file) : !is_running(writer));
+  return writer > 0 && (writer == own_id() ? !is_registered(file) : !process_runs(writer));
 }
 
 }  // namespace
@@ -109,6 +101,28 @@ bool is_left_over(const std::filesystem::path& file) {
 void install_signal_handler() {
   std::signal(SIGINT, leave_at_once);
   std::signal(SIGTERM, leave_at_once);
+}
+
+void end_with_standard_input() {
+  std::thread([] {
+    char thrown_away[256];
+    long count = 1;
+    while (count > 0 || (count < 0 && errno == EINTR)) count = STILLWATER_READ(0, thrown_away, sizeof thrown_away);
+    leave_at_once(SIGTERM);
+  }).detach();
+}
+
+bool process_runs(long id) {
+#if defined(_WIN32)
+  const HANDLE process = OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(id));
+  if (process == nullptr) return GetLastError() == ERROR_ACCESS_DENIED;
+  DWORD code = 0;
+  const bool runs = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
+  CloseHandle(process);
+  return runs;
+#else
+  return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM;
+#endif
 }
 
 TemporaryFile::TemporaryFile(const std::string& path) : slot_(-1) {

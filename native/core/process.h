@@ -11,6 +11,13 @@ namespace stillwater {
 /// process that somebody else owns (Blender).
 void install_signal_handler();
 
+/// From now on the process ends as SIGTERM ends it, temporary files removed, when its standard input ends: whoever
+/// started it is gone. What is read is thrown away. Watches from a thread of its own, which never touches Python.
+void end_with_standard_input();
+
+/// True where a process of this id runs on this machine, whoever owns it.
+bool process_runs(long id);
+
 /// A file that the signal handler removes. At most 64 at a time, paths up to 4095 bytes; throws BadInput beyond.
 class TemporaryFile {
  public:
