@@ -17,6 +17,9 @@ _HOMES = {
     "RecipeError": "recipe",
     "load": "recipe",
     "parse": "recipe",
+    "Wind": "motion",
+    "drift": "motion",
+    "sway": "motion",
 }
 
 __all__ = sorted(_HOMES)
