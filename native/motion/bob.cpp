@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "motion/rigid.h"
 
 namespace stillwater {
 namespace {
@@ -89,6 +91,23 @@ Segment fitted_waterline(const Bob& bob) {
   const std::vector<Point> points = resampled(checked(bob).waterline);
   const Axis axis = fitted(points);
   return {axis.at(axis.position(points.front())), axis.at(axis.position(points.back()))};
+}
+
+std::shared_ptr<const Displacement> bob(const Bob& bob, const Displacement& water, cv::Size picture) {
+  const std::vector<Point> rest = resampled(checked(bob).waterline);
+  std::vector<float> x, y;
+  for (const Point& p : rest) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
+  std::vector<float> to_x = x, to_y = y;
+  water.map(to_x.data(), to_y.data(), samples);
+  // What the water adds, so that the coordinates' rounding doesn't move a boat on a flat sea.
+  std::vector<Point> moved = rest;
+  for (int i = 0; i < samples; ++i) moved[i].x += to_x[i] - x[i], moved[i].y += to_y[i] - y[i];
+
+  const Axis axis = fitted(rest);
+  const Point from = axis.middle, to = mean(moved);
+  const double roll = std::atan(slope(axis, moved)) - std::atan(slope(axis, rest));
+  return std::make_shared<RigidMotion>(from, bob.amount * roll,
+                                       Point{bob.amount * (to.x - from.x), bob.amount * (to.y - from.y)}, picture);
 }
 
 }  // namespace stillwater

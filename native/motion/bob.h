@@ -8,9 +8,9 @@
 
 /// Boats: heave and roll with the water under the waterline (Chuang et al. 2005, 3.4).
 ///
-/// Points of the waterline go where the water takes them. A line fitted to them by linear regression, at rest and
-/// displaced, gives a heave (of its middle, across the line) and a roll (about its middle): a rigid motion of the
-/// layer.
+/// Points at equal distances along the waterline go where the water takes them. By a line fitted to them, at rest and
+/// displaced (linear regression of the offsets across the rest line on the places along it), the layer moves as a
+/// whole: with the line's middle (heave), and turned about it by the change of the line's angle (roll).
 namespace stillwater {
 
 /// The recipe's `bob`, with its animated numbers resolved.
@@ -23,7 +23,7 @@ struct Bob {
 /// it. Throws BadInput where the waterline has fewer than two points or no length.
 Segment fitted_waterline(const Bob& bob);
 
-/// The boat's motion on this moment's water. Throws BadInput.
-std::shared_ptr<const Displacement> bob(const Bob& bob, const Displacement& water);
+/// The boat's motion on this moment's water, in a picture of this size. Throws BadInput.
+std::shared_ptr<const Displacement> bob(const Bob& bob, const Displacement& water, cv::Size picture);
 
 }  // namespace stillwater
