@@ -8,19 +8,8 @@
 
 namespace stillwater {
 namespace {
-
-py::array_t<float> wave_heights(const WaveTile& tile, double seconds, double period, double speed, double direction) {
-  cv::Mat_<float> heights(tile.resolution, tile.resolution);
-  {
-    const py::gil_scoped_release release;
-    Waves waves(tile, period);
-    waves.blow(speed, direction);
-    const InverseFft2& filled = waves.at(period > 0 ? seconds / period : seconds);
-    for (int y = 0; y < tile.resolution; ++y) std::copy_n(filled.tile_row(y), tile.resolution, heights[y]);
-  }
-  return as_array(heights);
-}
-
+using Pair = std::array<double, 2>;
+Point as_point(Pair p) { return {p[0], p[1]}; }
 }  // namespace
 
 void bind_water(py::module_& module) {
@@ -30,24 +19,37 @@ void bind_water(py::module_& module) {
       .value("jonswap", Spectrum::jonswap)
       .value("tma", Spectrum::tma);
   py::enum_<RippleMode>(module, "RippleMode").value("height", RippleMode::height).value("normal", RippleMode::normal);
-  py::class_<WaveTile>(module, "WaveTile")
-      .def(py::init([](double side, int resolution, Spectrum spectrum, double fetch, double depth, std::uint64_t seed) {
-             return WaveTile{side, resolution, spectrum, fetch, depth, seed};
+  py::class_<View>(module, "View")
+      .def(py::init([](const std::optional<std::array<Pair, 2>>& horizon, double fov, double height) {
+             View view;
+             if (horizon) view.horizon = Segment{as_point((*horizon)[0]), as_point((*horizon)[1])};
+             view.fov = fov;
+             view.height = height;
+             return view;
            }),
-           py::kw_only(), py::arg("side") = 60.0, py::arg("resolution") = 256, py::arg("spectrum") = Spectrum::phillips,
-           py::arg("fetch") = 100.0, py::arg("depth") = 200.0, py::arg("seed") = 0);
-  module.def("wave_heights", &wave_heights);
-  module.def("rawmap", [](const Ripple& r, const View& v, const Wind& w, const Moment& m, int W, int H, bool forward){
-    RippleMotion motion(r, v, w, cv::Size(W,H), cv::Rect(0,0,W,H));
-    auto d = motion.at(m, r);
-    return as_array(forward ? forward_map(*d, W, H) : displacement_map(*d, W, H));
-  });
-  py::class_<Wind>(module, "Wind").def(py::init<>()).def_readwrite("speed",&Wind::speed).def_readwrite("direction",&Wind::direction);
-  py::class_<Moment>(module, "Moment").def(py::init<>()).def_readwrite("frame",&Moment::frame).def_readwrite("fps",&Moment::fps).def_readwrite("loop_frames",&Moment::loop_frames).def_readwrite("wind",&Moment::wind);
-  py::class_<View>(module, "View").def(py::init([](double x0,double y0,double x1,double y1,double fov,double height){ return View{Segment{{x0,y0},{x1,y1}},fov,height};}));
-  py::class_<Ripple>(module, "Ripple").def(py::init<>()).def_readwrite("amplitude",&Ripple::amplitude).def_readwrite("roughness",&Ripple::roughness).def_readwrite("tile",&Ripple::tile).def_readwrite("resolution",&Ripple::resolution).def_readwrite("mode",&Ripple::mode).def_readwrite("spectrum",&Ripple::spectrum).def_readwrite("seed",&Ripple::seed);
-  py::class_<RippleMotion>(module, "RippleMotion").def(py::init([](const Ripple& r, const View& v, const Wind& w, int W, int H){ return RippleMotion(r,v,w,cv::Size(W,H),cv::Rect(0,0,W,H));}))
-    .def("at", [](const RippleMotion& m, const Moment& t, const Ripple& r){ m.at(t, r); });
+           py::arg("horizon") = std::nullopt, py::arg("fov") = 50.0, py::arg("height") = 1.7);
+  py::class_<Ripple>(module, "Ripple")
+      .def(py::init([](double amplitude, double roughness, double tile, int resolution, const std::string& mode,
+                       const std::string& spectrum, double fetch, double depth, std::uint64_t seed) {
+             Ripple r;
+             r.amplitude = amplitude; r.roughness = roughness; r.tile = tile; r.resolution = resolution;
+             r.mode = mode == "normal" ? RippleMode::normal : RippleMode::height;
+             r.spectrum = spectrum == "jonswap" ? Spectrum::jonswap : spectrum == "tma" ? Spectrum::tma
+                 : spectrum == "pierson-moskowitz" ? Spectrum::pierson_moskowitz : Spectrum::phillips;
+             r.fetch = fetch; r.depth = depth; r.seed = seed;
+             return r;
+           }),
+           py::arg("amplitude") = 1.0, py::arg("roughness") = 1.0, py::arg("tile") = 60.0, py::arg("resolution") = 256,
+           py::arg("mode") = "height", py::arg("spectrum") = "phillips", py::arg("fetch") = 100.0, py::arg("depth") = 200.0,
+           py::arg("seed") = 0);
+  py::class_<Bob>(module, "Bob")
+      .def(py::init([](const std::vector<Pair>& waterline, double amount) {
+             Bob bob;
+             for (Pair p : waterline) bob.waterline.push_back(as_point(p));
+             bob.amount = amount;
+             return bob;
+           }),
+           py::arg("waterline"), py::arg("amount") = 1.0);
 }
 
 }  // namespace stillwater
