@@ -1,6 +1,7 @@
 """Materials: pigments with a broken tone, leaves that let light through, clouds."""
 
 import bpy
+import numpy as np
 
 
 def pigment(name: str, dark: tuple, light: tuple, scale: float = 1.0, roughness: float = 0.9,
@@ -78,3 +79,56 @@ def _times(tree, colour, attribute):
     tree.links.new(colour, mix.inputs["A"])
     tree.links.new(tone.outputs["Color"], mix.inputs["B"])
     return mix.outputs["Result"]
+
+
+def toned(name: str, roughness: float = 0.7, through: float = 0.0) -> bpy.types.Material:
+    """Paint, wood or cloth coloured by the mesh's attribute "tone"; cloth lets `through` of the light pass."""
+    if through:
+        return leaf(name, "tone", through)
+    material, tree, shader = _new(name)
+    tone = tree.nodes.new("ShaderNodeAttribute")
+    tone.attribute_name = "tone"
+    shader.inputs["Roughness"].default_value = roughness
+    shader.inputs["Specular IOR Level"].default_value = 0.25
+    tree.links.new(tone.outputs["Color"], shader.inputs["Base Color"])
+    return material
+
+
+def water(name: str, deep: tuple, swell: float, chop: float, size: float = 1.6, stretch: float = 2.5,
+          heading: float = 0.0) -> bpy.types.Material:
+    """Water that mirrors; `swell` and `chop` tilt its surface by long and short waves (0..1), `size` of the long
+    ones in metres, drawn out `stretch` times along `heading` (degrees from +X)."""
+    material, tree, shader = _new(name)
+    shader.inputs["Base Color"].default_value = (*deep, 1)
+    shader.inputs["Roughness"].default_value = 0.06
+    shader.inputs["IOR"].default_value = 1.34
+    shader.inputs["Specular IOR Level"].default_value = 0.5
+    where = tree.nodes.new("ShaderNodeTexCoord")
+    bump = None
+    for features, strength in ((1 / size, swell), (3.3 / size, chop)):
+        mapping = tree.nodes.new("ShaderNodeMapping")
+        mapping.inputs["Rotation"].default_value = (0, 0, -np.radians(heading))
+        mapping.inputs["Scale"].default_value = (features / stretch, features, features)
+        noise = tree.nodes.new("ShaderNodeTexNoise")
+        noise.inputs["Scale"].default_value = 1.0
+        noise.inputs["Detail"].default_value = 2.5
+        tree.links.new(where.outputs["Object"], mapping.inputs["Vector"])
+        tree.links.new(mapping.outputs[0], noise.inputs["Vector"])
+        step = tree.nodes.new("ShaderNodeBump")
+        step.inputs["Strength"].default_value = 1.0
+        step.inputs["Distance"].default_value = strength * 0.1 / features
+        tree.links.new(noise.outputs["Fac"], step.inputs["Height"])
+        if bump is not None:
+            tree.links.new(bump.outputs[0], step.inputs["Normal"])
+        bump = step
+    tree.links.new(bump.outputs[0], shader.inputs["Normal"])
+    return material
+
+
+def lamp(name: str, colour: tuple, strength: float) -> bpy.types.Material:
+    """What shines by itself."""
+    material, tree, shader = _new(name)
+    shader.inputs["Base Color"].default_value = (0, 0, 0, 1)
+    shader.inputs["Emission Color"].default_value = (*colour, 1)
+    shader.inputs["Emission Strength"].default_value = strength
+    return material

@@ -8,7 +8,7 @@ import tempfile
 
 import bpy
 import numpy as np
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
 bpy.utils.expose_bundled_modules()
 
@@ -52,8 +52,6 @@ def camera(at: tuple, towards: tuple, fov: float, roll: float = 0.0) -> bpy.type
 
 
 def _turn(degrees: float):
-    from mathutils import Matrix
-
     return Matrix.Rotation(math.radians(degrees), 3, "Z")
 
 
@@ -141,11 +139,11 @@ def _fill_ramp(ramp, stops) -> None:
         stop.position, stop.color = position, (*colour, 1)
 
 
-def render(shown: list, hold_out: list = (), unseen: list = (), transparent: bool = True) -> np.ndarray:
+def render(shown: list, hold_out: list = (), unseen: list = (), unmirrored: list = (), transparent: bool = True) -> np.ndarray:
     """Linear premultiplied RGBA (H, W, 4) of the objects `shown` as the camera sees them alone.
 
     All other objects still throw their shadows and light, but the `hold_out` ones cut what they hide, and the
-    `unseen` ones are not there at all.
+    `unseen` ones are not there at all, and the `unmirrored` ones don't show in water.
     """
     import OpenImageIO as oiio
 
@@ -156,6 +154,7 @@ def render(shown: list, hold_out: list = (), unseen: list = (), transparent: boo
             thing.visible_camera = thing in shown or thing in hold_out
             thing.is_holdout = thing in hold_out
             thing.hide_render = thing in unseen
+            thing.visible_glossy = thing not in unmirrored
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = os.path.join(folder, "layer.exr")
         with _quiet():
@@ -164,6 +163,18 @@ def render(shown: list, hold_out: list = (), unseen: list = (), transparent: boo
         pixels = image.read_image("float")
         image.close()
     return np.ascontiguousarray(pixels[..., :4], np.float32)
+
+
+def render_mirrored(shown: list, unseen: list = ()) -> np.ndarray:
+    """What a calm sea at z = 0 would show of the objects `shown`: seen by the camera's mirror image, turned over."""
+    eye = bpy.context.scene.camera
+    upright = eye.matrix_world.copy()
+    eye.matrix_world = Matrix.Diagonal((1, 1, -1, 1)) @ upright @ Matrix.Diagonal((1, -1, 1, 1))
+    bpy.context.view_layer.update()
+    image = render(shown, unseen=unseen)
+    eye.matrix_world = upright
+    bpy.context.view_layer.update()
+    return np.ascontiguousarray(image[::-1])
 
 
 @contextlib.contextmanager

@@ -114,7 +114,7 @@ def leaves(name: str, nodes: np.ndarray, radius: np.ndarray, crown: Crown, mater
 
     palette (P, 3) linear colours: each lobe leans to one of them, each leaf strays.
     """
-    thin = np.flatnonzero(radius < np.quantile(radius, 0.7))
+    thin = np.flatnonzero(radius <= np.quantile(radius, 0.7))
     twig = rng.choice(thin, count // 4)
     shell = rng.integers(0, len(crown.centres), count - len(twig))
     away = rng.standard_normal((len(shell), 3))

@@ -43,3 +43,25 @@ def direction(lightness: np.ndarray, sigma: float, fallback: np.ndarray) -> np.n
     x = -cos2 / (energy + weak) + 0.6 * weak / (energy + weak) * np.cos(2 * fallback)
     y = -sin2 / (energy + weak) + 0.6 * weak / (energy + weak) * np.sin(2 * fallback)
     return 0.5 * np.arctan2(y, x)
+
+
+def rippled(image: np.ndarray, horizon: np.ndarray, sway: float, length: float, rng: np.random.Generator) -> np.ndarray:
+    """A mirror image broken up by waves: rows pushed to and fro by up to `sway` px at the lower border.
+
+    horizon: its y (px) for each column (W,); length: a wave's height in px at the lower border. Both shrink
+    towards the horizon, as the water's distance grows.
+    """
+    h, w = image.shape[:2]
+    y, x = np.mgrid[0:h, 0:w].astype(np.float32)
+    near = np.clip((y - horizon[None, :]) / max(h - float(horizon.mean()), 1), 0.003, 1)
+    depth = 1 / near
+    push = np.zeros((h, w), np.float32)
+    for k in range(10):
+        turns = 2.0 * np.pi * rng.uniform(0.6, 2.6) * h / (length * 14)
+        slant = rng.uniform(-9, 9) / w
+        push += np.sin(turns * depth + slant * x * depth * 0.4 + rng.uniform(0, 2 * np.pi)) / np.sqrt(10)
+    at = np.clip(x + push * sway * near, 0, w - 1.001)
+    left = np.floor(at).astype(int)
+    share = (at - left)[..., None]
+    rows = np.arange(h)[:, None]
+    return image[rows, left] * (1 - share) + image[rows, left + 1] * share

@@ -28,10 +28,11 @@ def write_sample(folder: str, layers: list[tuple[str, np.ndarray]], filled: tupl
     whole = layers[-1][1][..., :3]
     for name, layer in reversed(layers[:-1]):
         alpha = np.round(np.clip(layer[..., 3], 0, 1) * 255) / 255
+        file = name.replace(" ", "_")
         if name in filled:
             near = (blur(alpha, 3.0) > 0.01)[..., None]
-            write_image(os.path.join(folder, "behind", name + ".jpg"), np.where(near, whole, whole.mean(axis=(0, 1))))
-        write_image(os.path.join(folder, "mattes", name + ".png"), alpha)
+            write_image(os.path.join(folder, "behind", file + ".jpg"), np.where(near, whole, whole.mean(axis=(0, 1))))
+        write_image(os.path.join(folder, "mattes", file + ".png"), alpha)
         colour = layer[..., :3] / np.maximum(layer[..., 3:], 1e-4)
         whole = np.clip(colour, 0, 1) * alpha[..., None] + whole * (1 - alpha[..., None])
     write_image(os.path.join(folder, "picture.png"), whole)

@@ -23,6 +23,11 @@ class Round:
     smooth: float = 0.35  # blur of what the painter looks at, in widths
 
 
+def brushwork(scale: float, *given: tuple) -> list[Round]:
+    """Rounds from (length, width, {the other fields}), lengths for a picture 1280 px wide brought to `scale`."""
+    return [Round(length * scale, width * scale, **more) for length, width, more in given]
+
+
 @dataclass
 class Painted:
     """Premultiplied display colour (H, W, 4) and the paint's thickness (H, W)."""

@@ -20,7 +20,7 @@ from models.meshes import cards, grid, ripple_noise  # noqa: E402
 from models.tree import Crown, bark, grow, leaves, thickness  # noqa: E402
 from paint.fields import noise  # noqa: E402
 from paint.layers import crisp, over, write_sample  # noqa: E402
-from paint.strokes import Round, light_relief, paint  # noqa: E402
+from paint.strokes import brushwork, light_relief, paint  # noqa: E402
 
 FOOT = np.array([3.4, 22.5, 0.0])
 
@@ -145,19 +145,16 @@ def main() -> None:
     earth = stage.display(stage.render(ground + land))
     standing = stage.display(stage.render(tree, hold_out=ground))
 
-    def rounds(*given):
-        return [Round(length * scale, wide * scale, **more) for length, wide, more in given]
-
     waft = 0.6 * noise((height, width), 220 * scale, rng) - 0.2
-    sky = light_relief(paint(sky, rounds(
+    sky = light_relief(paint(sky, brushwork(scale,
         (64, 22, {"density": 1.6, "variety": 0.025}), (34, 12, {"density": 1.2, "error": 0.02, "variety": 0.022}),
         (18, 7, {"error": 0.05, "variety": 0.02})), rng, waft, 9 * scale), 0.15)
     lean = np.full((height, width), -1.2, np.float32)
     lean[: int(height * 0.66)] = 0.05
-    earth = light_relief(paint(earth, rounds(
+    earth = light_relief(paint(earth, brushwork(scale,
         (30, 11, {"density": 1.8, "variety": 0.04}), (17, 5, {"density": 1.2, "error": 0.04, "variety": 0.04}),
         (10, 2.6, {"error": 0.07, "variety": 0.04})), rng, lean, 4 * scale), 0.3)
-    standing = crisp(light_relief(paint(standing, rounds(
+    standing = crisp(light_relief(paint(standing, brushwork(scale,
         (13, 6, {"density": 1.6, "spread": 0.7}), (9, 4, {"density": 1.6, "error": 0.03, "spread": 0.6, "lights_last": 0.8}),
         (6, 2.2, {"density": 1.3, "error": 0.05, "spread": 0.4, "lights_last": 0.8})), rng, 0.6 * noise((height, width), 30 * scale, rng) + 0.8, 3 * scale), 0.3))
 
