@@ -1,7 +1,9 @@
 #include "core/process.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +16,7 @@
 
 #if defined(_WIN32)
 #include <io.h>
+#include <process.h>
 #include <windows.h>
 #define STILLWATER_UNLINK _unlink
 #define STILLWATER_READ _read
@@ -42,6 +45,57 @@ extern "C" void leave_at_once(int signal_number) {
   std::_Exit(128 + signal_number);
 }
 
+#if defined(_WIN32)
+
+long own_id() { return _getpid(); }
+
+std::string host_name() {
+  char name[MAX_COMPUTERNAME_LENGTH + 1];
+  DWORD length = sizeof name;
+  return GetComputerNameA(name, &length) ? std::string(name, length) : "localhost";
+}
+
+#else
+
+long own_id() { return getpid(); }
+
+std::string host_name() {
+  char name[256];
+  if (gethostname(name, sizeof name) != 0) return "localhost";
+  name[sizeof name - 1] = '\0';
+  return name;
+}
+
+#endif
+
+/// The process that wrote a temporary file of this machine under this name; 0 for any other name.
+long writer_of(const std::string& name) {
+  const std::string host = "." + host_name() + ".", end = ".tmp.";
+  const auto tail = name.rfind(end);
+  if (name.front() != '.' || tail == std::string::npos || name.find('.', tail + end.size()) != std::string::npos) return 0;
+  const auto dot = name.rfind('.', tail - 1);
+  if (tail == 0 || dot == std::string::npos || dot + 1 < host.size()) return 0;
+  if (name.compare(dot + 1 - host.size(), host.size(), host) != 0) return 0;
+  long id = 0;
+  const char* last = name.data() + tail;
+  const auto read = std::from_chars(name.data() + dot + 1, last, id);
+  return read.ec == std::errc() && read.ptr == last && id > 0 ? id : 0;
+}
+
+bool is_registered(const std::filesystem::path& file) {
+  const std::lock_guard lock(slot_mutex);
+  std::error_code gone;
+  for (int i = 0; i < slots; ++i)
+    if (taken[i] && std::filesystem::equivalent(file, paths[i], gone)) return true;
+  return false;
+}
+
+/// A process may have had our own number before us: what we have not registered is not ours.
+bool is_left_over(const std::filesystem::path& file) {
+  const long writer = writer_of(file.filename().string());
+  return writer > 0 && (writer == own_id() ? !is_registered(file) : !process_runs(writer));
+}
+
 }  // namespace
 
 void install_signal_handler() {
@@ -61,11 +115,11 @@ void end_with_standard_input() {
 bool process_runs(long id) {
 #if defined(_WIN32)
   const HANDLE process = OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(id));
-  if (process == nullptr) return GetLastError() == ERROR_ACCESS_DENIED;
+  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
   DWORD code = 0;
-  const bool runs = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
+  const bool running = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
   CloseHandle(process);
-  return runs;
+  return running;
 #else
   return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM;
 #endif
@@ -93,6 +147,25 @@ void TemporaryFile::keep_as(const std::string& path) {
   if (failure) throw FileError(path + ": cannot be written (" + failure.message() + ")");
   taken[slot_] = false;
   slot_ = -1;
+}
+
+std::string temporary_name(const std::string& path) {
+  const std::filesystem::path file(path);
+  const std::string name = "." + file.stem().string() + "." + host_name() + "." + std::to_string(own_id()) + ".tmp";
+  return (file.parent_path() / (name + file.extension().string())).string();
+}
+
+std::vector<std::string> sweep_temporaries(const std::string& folder) {
+  std::vector<std::string> swept;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
+    if (!is_left_over(entry->path())) continue;
+    if (std::filesystem::remove(entry->path(), failure)) swept.push_back(entry->path().string());
+  }
+  if (failure && failure != std::errc::no_such_file_or_directory)
+    throw FileError(folder + ": cannot be swept (" + failure.message() + ")");
+  std::sort(swept.begin(), swept.end());
+  return swept;
 }
 
 }  // namespace stillwater

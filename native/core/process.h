@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 /// What the engine needs of the operating system; the only file with system calls of one kind of machine.
 namespace stillwater {
@@ -31,5 +32,13 @@ class TemporaryFile {
  private:
   int slot_;
 };
+
+/// The name under which a file (with an extension) is written before it is renamed: ".NAME.HOST.PID.tmp.EXTENSION"
+/// beside "NAME.EXTENSION". Host and process tell a sweeper whose it is.
+std::string temporary_name(const std::string& path);
+
+/// Removes what processes of this machine that no longer run have left in a folder under names of
+/// temporary_name(), and gives those paths, sorted. A folder that is not there holds nothing. Throws FileError.
+std::vector<std::string> sweep_temporaries(const std::string& folder);
 
 }  // namespace stillwater

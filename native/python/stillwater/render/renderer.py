@@ -27,8 +27,11 @@ class Renderer:
                 follows=place[layer.follows.layer] if layer.follows else -1,
                 mirror=bool(layer.follows and layer.follows.mirror),
                 visible=layer.visible,
+                endless=endless,
             )
-            for image, layer, now in zip(layer_images(stack, "colour"), recipe.layers, start.layers, strict=True)
+            for image, layer, now, endless in zip(
+                layer_images(stack, "colour"), recipe.layers, start.layers, timeline.endless, strict=True
+            )
         ]
         view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
         self._renderer = engine.FrameRenderer(
