@@ -40,11 +40,13 @@ FrameRenderer::FrameRenderer(const PictureSetup& picture, const std::vector<Laye
     layer.visible = setup.visible && !setup.image.box.empty();
     layer.moves = motions_->moves(i);
     if (!layer.visible) continue;
-    layer.plate = make_plate(setup.image, picture.size, picture.scale, setup.endless);
-    if (picture.has_alpha) layer.alpha_plate = make_plate(setup.alpha, picture.size, picture.scale, setup.endless);
-    if (!drifts(layers, i)) continue;
-    layer.mean = make_mean_plate(setup.image, picture.size, picture.scale, setup.endless);
-    if (picture.has_alpha) layer.alpha_mean = make_mean_plate(setup.alpha, picture.size, picture.scale, setup.endless);
+    const bool drifting = drifts(layers, i);
+    const Endless endless = drifting ? setup.endless : Endless{};
+    layer.plate = make_plate(setup.image, picture.size, picture.scale, endless);
+    if (picture.has_alpha) layer.alpha_plate = make_plate(setup.alpha, picture.size, picture.scale, endless);
+    if (!drifting) continue;
+    layer.mean = make_mean_plate(setup.image, picture.size, picture.scale, endless);
+    if (picture.has_alpha) layer.alpha_mean = make_mean_plate(setup.alpha, picture.size, picture.scale, endless);
   }
 }
 

@@ -20,7 +20,7 @@ struct LayerSetup {
   int follows = -1;       ///< index of the layer that this one goes with
   bool mirror = false;    ///< ... as its reflection
   bool visible = true;    ///< a hidden layer shows its fill
-  Endless endless;        ///< of a drift
+  Endless endless{true, true};  ///< of a drift and what follows it: axes along which it may move
 };
 
 /// What is fixed about the picture.
