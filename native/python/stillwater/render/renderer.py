@@ -19,6 +19,7 @@ class Renderer:
         place = {layer.name: i for i, layer in enumerate(recipe.layers)}
         start = timeline.at(recipe.frames[0])
         self._timeline, self._layers_too = timeline, recipe.output.layers
+        images = layer_images(stack, "colour")
         layers = [
             engine.Layer(
                 image,
@@ -29,9 +30,7 @@ class Renderer:
                 visible=layer.visible,
                 endless=endless,
             )
-            for image, layer, now, endless in zip(
-                layer_images(stack, "colour"), recipe.layers, start.layers, timeline.endless, strict=True
-            )
+            for image, layer, now, endless in zip(images, recipe.layers, start.layers, timeline.endless, strict=True)
         ]
         view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
         self._renderer = engine.FrameRenderer(
