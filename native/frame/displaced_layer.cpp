@@ -7,6 +7,8 @@
 namespace stillwater {
 namespace {
 
+using SharedDisplacement = std::shared_ptr<const Displacement>;
+
 bool rests(const SharedDisplacement& displacement) { return !displacement || displacement->at_rest(); }
 
 // Where a run of output pixels is sampled, in the plate's index coordinates.
@@ -40,7 +42,7 @@ void sample(const Plate& plate, const SharedDisplacement& displacement, const Ru
 // The flow is the same for one copy and for two.
 class TravellingLayer : public LayerMotion {
  public:
-  TravellingLayer(const Plate& plate, Travel travel) : plate_(plate), travel_(std::move(travel)) {}
+  TravellingLayer(const Plate& plate, const Travel& travel) : plate_(plate), travel_(travel) {}
 
   bool at_rest() const override { return rests(travel_.now) && rests(travel_.after); }
 
@@ -68,8 +70,8 @@ class TravellingLayer : public LayerMotion {
 
 class DisplacedLayer final : public TravellingLayer {
  public:
-  DisplacedLayer(const Plate& plate, SharedDisplacement now, Travel travel)
-      : TravellingLayer(plate, std::move(travel)), now_(std::move(now)) {}
+  DisplacedLayer(const Plate& plate, SharedDisplacement now, const Travel& travel)
+      : TravellingLayer(plate, travel), now_(std::move(now)) {}
 
   bool at_rest() const override { return rests(now_) && TravellingLayer::at_rest(); }
 
@@ -93,8 +95,8 @@ class DisplacedLayer final : public TravellingLayer {
 
 class CrossFadedLayer final : public TravellingLayer {
  public:
-  CrossFadedLayer(const Plate& plate, const Plate& mean, Copies copies, Travel travel)
-      : TravellingLayer(plate, std::move(travel)), mean_(mean), copies_(std::move(copies)) {}
+  CrossFadedLayer(const Plate& plate, const Plate& mean, const Placement& now, const Travel& travel)
+      : TravellingLayer(plate, travel), mean_(mean), copies_(now) {}
 
   bool at_rest() const override { return false; }
 
@@ -119,17 +121,18 @@ class CrossFadedLayer final : public TravellingLayer {
 
  private:
   const Plate& mean_;
-  Copies copies_;
+  Placement copies_;
 };
 
 }  // namespace
 
-std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, SharedDisplacement now, Travel travel) {
-  return std::make_unique<DisplacedLayer>(plate, std::move(now), std::move(travel));
+std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, const Placement& now, const Travel& travel) {
+  return std::make_unique<DisplacedLayer>(plate, now.first, travel);
 }
 
-std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, Copies copies, Travel travel) {
-  return std::make_unique<CrossFadedLayer>(plate, mean, std::move(copies), std::move(travel));
+std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, const Placement& now,
+                                               const Travel& travel) {
+  return std::make_unique<CrossFadedLayer>(plate, mean, now, travel);
 }
 
 }  // namespace stillwater

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "layers/displacement.h"
+#include "frame/motions.h"
 #include "layers/layer_motion.h"
 #include "layers/sampling.h"
 
@@ -16,27 +16,14 @@ struct Plate {
   double output_scale = 1;
 };
 
-using SharedDisplacement = std::shared_ptr<const Displacement>;  ///< null: no displacement
-
-/// A layer's way from this frame to the next, without the jumps that an endless layer may make: what flow is read from.
-struct Travel {
-  SharedDisplacement now, after;
-};
-
-/// Two copies of one layer, the second with `second_share` (0..1) of the whole.
-struct Copies {
-  SharedDisplacement first, second;
-  double second_share = 0;
-};
-
 /// A layer that is the still layer, displaced (sway, ripple, bob, drift and whatever follows them): colour is sampled
 /// through the map of this moment, the flow leads through the still picture to the map of the next.
-std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, SharedDisplacement now, Travel travel);
+std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, const Placement& now, const Travel& travel);
 
-/// Two displaced copies of one layer, cross-faded with variance kept, so that contrast does not sink half way. `mean`
+/// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half way. `mean`
 /// is the layer, blurred: what does not change where the copies differ.
 ///
 ///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2),   M = w1 M1 + w2 M2
-std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, Copies copies, Travel travel);
+std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, const Placement& now, const Travel& travel);
 
 }  // namespace stillwater

@@ -66,25 +66,20 @@ bool FrameRenderer::drifts(const std::vector<LayerSetup>& layers, int layer) con
   return false;
 }
 
-std::vector<std::unique_ptr<LayerMotion>> FrameRenderer::motions_of(const std::vector<Placement>& now,
-                                                                    const std::vector<Placement>& after,
-                                                                    bool of_alpha) const {
-  std::vector<std::unique_ptr<LayerMotion>> motions;
+FrameRenderer::LayerMotions FrameRenderer::motions_of(const std::vector<Placement>& now,
+                                                      const std::vector<Travel>& travel, bool of_alpha) const {
+  LayerMotions motions;
   for (size_t i = 0; i < layers_.size(); ++i) {
     const Layer& layer = layers_[i];
     const Plate& plate = of_alpha ? layer.alpha_plate : layer.plate;
-    const Travel travel{now[i].travelled, after[i].travelled};
-    if (now[i].second_share > 0)
-      motions.push_back(cross_faded_layer(plate, of_alpha ? layer.alpha_mean : layer.mean,
-                                          {now[i].first, now[i].second, now[i].second_share}, travel));
-    else
-      motions.push_back(displaced_layer(plate, now[i].first, travel));
+    const Plate& mean = of_alpha ? layer.alpha_mean : layer.mean;
+    motions.push_back(now[i].second_share > 0 ? cross_faded_layer(plate, mean, now[i], travel[i])
+                                              : displaced_layer(plate, now[i], travel[i]));
   }
   return motions;
 }
 
-std::vector<ComposedLayer> FrameRenderer::composed(const std::vector<std::unique_ptr<LayerMotion>>& motions,
-                                                   const FrameNumbers& now) const {
+std::vector<ComposedLayer> FrameRenderer::composed(const LayerMotions& motions, const FrameNumbers& now) const {
   std::vector<ComposedLayer> composed;
   for (size_t i = 0; i < layers_.size(); ++i) {
     const float opacity = layers_[i].visible ? static_cast<float>(now.layers[i].opacity) : 0.0f;
@@ -95,26 +90,24 @@ std::vector<ComposedLayer> FrameRenderer::composed(const std::vector<std::unique
 
 Frame FrameRenderer::render(const FrameNumbers& now, const FrameNumbers& after, FrameWish wish) const {
   const std::vector<Placement> placed = motions_->at(now.moment, motion_numbers(now));
-  const std::vector<Placement> placed_after = wish.flow ? motions_->at(after.moment, motion_numbers(after)) : placed;
-  const auto motions = motions_of(placed, placed_after, false);
+  std::vector<Travel> travel(layers_.size());
+  if (wish.flow) travel = motions_->travel(placed, after.moment, motion_numbers(after));
+  const LayerMotions motions = motions_of(placed, travel, false);
   const std::vector<ComposedLayer> layers = composed(motions, now);
   Composition whole = compose(layers, size_, {wish.flow, wish.matte});
   Frame frame{whole.combined, whole.flow, whole.matte, {}};
   if (wish.layers)
     for (const ComposedLayer& layer : layers)
       frame.layers.push_back(layer.opacity > 0 ? compose_alone(layer, size_) : Rgba());
-  if (picture_.has_alpha) add_alpha(frame, placed, placed_after, now, wish);
+  if (picture_.has_alpha) add_alpha(frame, motions_of(placed, travel, true), now);
   return frame;
 }
 
 // The picture's own alpha is one more grey picture, cut and moved like the colours.
-void FrameRenderer::add_alpha(Frame& frame, const std::vector<Placement>& now, const std::vector<Placement>& after,
-                              const FrameNumbers& numbers, FrameWish wish) const {
-  const auto motions = motions_of(now, after, true);
-  const std::vector<ComposedLayer> layers = composed(motions, numbers);
+void FrameRenderer::add_alpha(Frame& frame, const LayerMotions& motions, const FrameNumbers& now) const {
+  const std::vector<ComposedLayer> layers = composed(motions, now);
   take_alpha(frame.combined, compose(layers, size_, {.flow = false, .matte = false}).combined);
-  if (!wish.layers) return;
-  for (size_t i = 0; i < layers.size(); ++i)
+  for (size_t i = 0; i < frame.layers.size(); ++i)
     if (!frame.layers[i].empty()) take_alpha(frame.layers[i], compose_alone(layers[i], size_));
 }
 

@@ -77,12 +77,10 @@ class FrameRenderer {
 
   void check(const std::vector<LayerSetup>& layers) const;
   bool drifts(const std::vector<LayerSetup>& layers, int layer) const;
-  std::vector<std::unique_ptr<LayerMotion>> motions_of(const std::vector<Placement>& now, const std::vector<Placement>& after,
-                                                       bool of_alpha) const;
-  std::vector<ComposedLayer> composed(const std::vector<std::unique_ptr<LayerMotion>>& motions,
-                                      const FrameNumbers& now) const;
-  void add_alpha(Frame& frame, const std::vector<Placement>& now, const std::vector<Placement>& after,
-                 const FrameNumbers& numbers, FrameWish wish) const;
+  using LayerMotions = std::vector<std::unique_ptr<LayerMotion>>;
+  LayerMotions motions_of(const std::vector<Placement>& now, const std::vector<Travel>& travel, bool of_alpha) const;
+  std::vector<ComposedLayer> composed(const LayerMotions& motions, const FrameNumbers& now) const;
+  void add_alpha(Frame& frame, const LayerMotions& motions, const FrameNumbers& now) const;
 
   PictureSetup picture_;
   cv::Size size_;

@@ -1,6 +1,7 @@
 #include "frame/motions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -68,11 +69,29 @@ Segment Motions::mirror_axis(int layer) const {
   return {through, {through.x + along.x, through.y + along.y}};
 }
 
+namespace {
+
+Placement alone(const std::shared_ptr<const Displacement>& displacement) { return {displacement, nullptr, 0, {}}; }
+
+std::shared_ptr<const Displacement> translation(const Point& by) { return std::make_shared<Translation>(by); }
+
+// Where the first copy is when it goes on from `before`, instead of starting over.
+Point going_on(const DriftCopies& copies, const Point& before) {
+  const Point way = copies.start_over, moved{copies.first.x - before.x, copies.first.y - before.y};
+  const double square = way.x * way.x + way.y * way.y;
+  const double turns = square > 0 ? std::nearbyint((moved.x * way.x + moved.y * way.y) / square) : 0;
+  return {copies.first.x - turns * way.x, copies.first.y - turns * way.y};
+}
+
+}  // namespace
+
 /// The displacements of one moment, layer by layer in the order of their needs.
 class MomentOfMotions {
  public:
-  MomentOfMotions(const Motions& motions, const Moment& moment, const std::vector<MotionNumbers>& numbers)
-      : motions_(motions), moment_(moment), numbers_(numbers), placements_(numbers.size()) {}
+  /// `before`: placements from which endless layers go on without a jump, or null.
+  MomentOfMotions(const Motions& motions, const Moment& moment, const std::vector<MotionNumbers>& numbers,
+                  const std::vector<Placement>* before)
+      : motions_(motions), moment_(moment), numbers_(numbers), before_(before), placements_(numbers.size()) {}
 
   std::vector<Placement> all() {
     for (const int i : motions_.order_) placements_[i] = after_following(i, own(i));
@@ -87,18 +106,15 @@ class MomentOfMotions {
       const auto& water = placements_[motions_.layers_[i].water].first;
       return water ? alone(bob(*boat, *water)) : Placement{};
     }
-    if (const auto* clouds = std::get_if<Drift>(&numbers_[i])) {
-      const DriftCopies copies = drift(*clouds, moment_, motions_.layers_[i].period);
-      return {translation(copies.first), translation(copies.second), copies.second_share, translation(copies.travelled)};
-    }
+    if (const auto* clouds = std::get_if<Drift>(&numbers_[i])) return drifting(i, *clouds);
     return {};
   }
 
-  static Placement alone(const std::shared_ptr<const Displacement>& displacement) {
-    return {displacement, nullptr, 0, displacement};
+  Placement drifting(int i, const Drift& clouds) const {
+    const DriftCopies copies = drift(clouds, moment_, motions_.layers_[i].period);
+    if (before_) return alone(translation(going_on(copies, (*before_)[i].drifted)));
+    return {translation(copies.first), translation(copies.second), copies.second_share, copies.first};
   }
-
-  static std::shared_ptr<const Displacement> translation(const Point& by) { return std::make_shared<Translation>(by); }
 
   Placement after_following(int i, const Placement& own) const {
     const MotionSetup& setup = motions_.layers_[i];
@@ -107,8 +123,8 @@ class MomentOfMotions {
     const auto followed = [&](const std::shared_ptr<const Displacement>& led) {
       return led && setup.mirror ? mirrored(led, motions_.mirror_axis(setup.follows)) : led;
     };
-    Placement both{chained(followed(leader.first), own.first), nullptr, 0, chained(followed(leader.travelled), own.travelled)};
-    both.second_share = std::max(leader.second_share, own.second_share);
+    Placement both{chained(followed(leader.first), own.first), nullptr, std::max(leader.second_share, own.second_share),
+                   own.drifted};
     if (both.second_share > 0)
       both.second = chained(followed(leader.second_share > 0 ? leader.second : leader.first),
                             own.second_share > 0 ? own.second : own.first);
@@ -118,17 +134,31 @@ class MomentOfMotions {
   const Motions& motions_;
   const Moment& moment_;
   const std::vector<MotionNumbers>& numbers_;
+  const std::vector<Placement>* before_;
   std::vector<Placement> placements_;
 };
 
-std::vector<Placement> Motions::at(const Moment& moment, const std::vector<MotionNumbers>& numbers) const {
+void Motions::check(const std::vector<MotionNumbers>& numbers) const {
   if (numbers.size() != layers_.size())
     throw BadInput("states: " + std::to_string(numbers.size()) + " is not one for each of " +
                    std::to_string(layers_.size()) + " layers");
   for (size_t i = 0; i < numbers.size(); ++i)
     if (numbers[i].index() != layers_[i].numbers.index())
       throw BadInput(place_of(static_cast<int>(i)) + ": another kind of motion than it was set up with");
-  return MomentOfMotions(*this, moment, numbers).all();
+}
+
+std::vector<Placement> Motions::at(const Moment& moment, const std::vector<MotionNumbers>& numbers) const {
+  check(numbers);
+  return MomentOfMotions(*this, moment, numbers, nullptr).all();
+}
+
+std::vector<Travel> Motions::travel(const std::vector<Placement>& now, const Moment& after,
+                                    const std::vector<MotionNumbers>& numbers_after) const {
+  check(numbers_after);
+  const std::vector<Placement> next = MomentOfMotions(*this, after, numbers_after, &now).all();
+  std::vector<Travel> travel;
+  for (size_t i = 0; i < now.size(); ++i) travel.push_back({now[i].first, next[i].first});
+  return travel;
 }
 
 }  // namespace stillwater

@@ -30,8 +30,14 @@ struct MotionSetup {
 /// The one or two copies of a layer at a moment. Null stands for no displacement.
 struct Placement {
   std::shared_ptr<const Displacement> first, second;
-  double second_share = 0;                              ///< above 0 where two copies are cross-faded
-  std::shared_ptr<const Displacement> travelled;        ///< `first` without jumps back: what the flow is read from
+  double second_share = 0;  ///< above 0 where two copies are cross-faded
+  Point drifted;            ///< of a drift: offset of the first copy
+};
+
+/// A layer's way from one frame to the next, without the jumps of an endless layer that starts over: what flow is read
+/// from. Null stands for no displacement.
+struct Travel {
+  std::shared_ptr<const Displacement> now, after;
 };
 
 /// The motions of all layers of one picture, and how they hang together: a bob reads its water, a follower goes with
@@ -45,12 +51,17 @@ class Motions {
   /// One Placement a layer. `numbers`: one a layer, of the kind it was set up with.
   std::vector<Placement> at(const Moment& moment, const std::vector<MotionNumbers>& numbers) const;
 
+  /// One Travel a layer, from where `now` (of at()) has it to the moment after.
+  std::vector<Travel> travel(const std::vector<Placement>& now, const Moment& after,
+                             const std::vector<MotionNumbers>& numbers_after) const;
+
   /// True where the layer, or one that it follows, has a motion.
   bool moves(int layer) const;
 
  private:
   friend class MomentOfMotions;
 
+  void check(const std::vector<MotionNumbers>& numbers) const;
   void order_layers();
   Segment mirror_axis(int layer) const;
   cv::Rect water_region(int layer) const;

@@ -27,7 +27,7 @@ DriftCopies drift(const Drift& drift, const Moment& moment, Point period) {
   }
   check::positive("period", period.x, "px");
   check::positive("period", period.y, "px");
-  if (moment.loop_frames == 0) return {drift.offset, drift.offset, 0};
+  if (moment.loop_frames == 0) return {drift.offset, drift.offset, 0, {}};
 
   const Point way = drift.loop_offset;
   const Point plain = travel_in_loop(drift.offset, way, moment);
@@ -35,10 +35,10 @@ DriftCopies drift(const Drift& drift, const Moment& moment, Point period) {
   const Point missing = whole_turns(way, period) - way;
   if (length(missing) <= largest_change_of_speed * length(way)) {
     const Point place = plain + share_of_loop * missing;
-    return {place, place, 0};
+    return {place, place, 0, way + missing};
   }
   const Point first = share_of_loop < 0.5 ? plain : plain - way;
-  return {first, plain - 0.5 * way, 1 - std::abs(1 - 2 * share_of_loop)};
+  return {first, plain - 0.5 * way, 1 - std::abs(1 - 2 * share_of_loop), way};
 }
 
 }  // namespace stillwater

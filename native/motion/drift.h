@@ -16,6 +16,7 @@ struct Drift {
 struct DriftCopies {
   Point first, second;      ///< offset of each copy, pixels
   double second_share = 0;  ///< 0 .. 1, weight of the second copy; 0 = the first alone
+  Point start_over;         ///< way after which the first copy may start over where it was; (0, 0) = it never does
 };
 
 /// Without a loop one copy at the offset. A loop closes by whole turns of the cyclic layer, its way stretched evenly,

@@ -88,6 +88,7 @@ TurbulenceNoise::TurbulenceNoise(std::uint64_t seed) {
 }
 
 double turbulence(const TurbulenceNoise& noise, const Moment& moment) {
+  check_moment(moment);
   const TurbulenceClock clock = turbulence_clock(moment);
   const std::complex<double> step = std::polar(1.0, 2 * std::numbers::pi * clock.turn);
   std::complex<double> phase = 1;

@@ -19,6 +19,9 @@ _HOMES = {
     "parse": "recipe",
     "displace": "layers",
     "over": "layers",
+    "Wind": "motion",
+    "drift": "motion",
+    "sway": "motion",
 }
 
 __all__ = sorted(_HOMES)
