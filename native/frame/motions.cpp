@@ -104,7 +104,7 @@ class MomentOfMotions {
     if (const auto* ripple = std::get_if<Ripple>(&numbers_[i])) return alone(motions_.ripples_[i]->at(moment_, *ripple));
     if (const auto* boat = std::get_if<Bob>(&numbers_[i])) {
       const auto& water = placements_[motions_.layers_[i].water].first;
-      return water ? alone(bob(*boat, *water)) : Placement{};
+      return water ? alone(bob(*boat, *water, motions_.picture_)) : Placement{};
     }
     if (const auto* clouds = std::get_if<Drift>(&numbers_[i])) return drifting(i, *clouds);
     return {};

@@ -1,0 +1,126 @@
+#include "motion/waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "core/cpu.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "motion/waves_avx2.h"
+#include "motion/waves_kernel.h"
+
+namespace stillwater {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr int lanes = 8;  // rows of modes start at multiples of 8 floats
+
+const WaveTile& checked(const WaveTile& tile) {
+  check::in_range("tile", tile.side, 1e-3, 2000, "m");
+  check::power_of_two("resolution", tile.resolution, 16, 2048);
+  check::positive("fetch", tile.fetch, "km");
+  check::positive("depth", tile.depth, "m");
+  return tile;
+}
+
+/// What divides the spectrum of heights to give that of their cubic B-spline's coefficients, one axis.
+double spline_response(int wave, int n) { return (2 + std::cos(turn * wave / n)) / 3; }
+
+/// Samples can't tell the two directions of the highest frequency apart: it stays empty.
+bool highest(int kx, int ky, int n) { return kx == n / 2 || std::abs(ky) == n / 2; }
+
+}  // namespace
+
+Waves::Waves(const WaveTile& tile, double period)
+    : tile_(checked(tile)),
+      half_(tile.resolution / 2),
+      stride_((half_ + 1 + lanes - 1) / lanes * lanes),
+      turns_(static_cast<size_t>(half_ + 1) * stride_),
+      noise_(static_cast<size_t>(tile.resolution) * tile.resolution),
+      modes_(static_cast<size_t>(tile.resolution) * 4 * stride_),
+      transform_(tile.resolution) {
+  const int n = tile_.resolution;
+  const Sea sea{tile_.spectrum, 0, tile_.fetch, tile_.depth};
+  parallel_rows(half_ + 1, 8, [&](int first, int last) {
+    for (int ky = first; ky < last; ++ky)
+      for (int kx = 0; kx <= half_; ++kx) {
+        const double turns = angular_frequency(sea, turn / tile_.side * std::hypot(kx, ky)) / turn;
+        turns_[static_cast<size_t>(ky) * stride_ + kx] =
+            period > 0 && turns > 0 ? std::max(1.0, std::round(turns * period)) : turns;
+      }
+  });
+  parallel_rows(n, 8, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < n; ++x) {
+        const int kx = x < half_ ? x : x - n, ky = y < half_ ? y : y - n;
+        noise_[static_cast<size_t>(y) * n + x] = random_gaussian(tile_.seed, {kx, ky, 0}) * std::numbers::sqrt2 / 2.0;
+      }
+  });
+}
+
+float* Waves::mode_row(int ky) { return modes_.data() + static_cast<size_t>(ky) * 4 * stride_; }
+
+void Waves::blow(double speed, double direction) {
+  check::in_range("wind.speed", speed, 0, 100, "m/s");
+  check::finite("wind.direction", direction);
+  if (speed == speed_ && direction == direction_) return;
+  speed_ = speed, direction_ = direction;
+  const int n = tile_.resolution;
+  const Sea sea{tile_.spectrum, speed, tile_.fetch, tile_.depth};
+  const double dk = turn / tile_.side;
+  const double right = std::cos(direction * turn / 360), away = std::sin(direction * turn / 360);
+
+  // A(k) of the wave numbers (kx, ky), |kx| and |ky| below n / 2.
+  const auto amplitude = [&](int kx, int ky, double root) -> std::complex<float> {
+    const double towards = (kx * right + ky * away) / std::hypot(kx, ky);
+    const auto noise = noise_[static_cast<size_t>((ky + n) % n) * n + (kx + n) % n];
+    return noise * static_cast<float>(root * std::sqrt(spreading(towards)));
+  };
+  parallel_rows(half_ + 1, 4, [&](int first, int last) {
+    for (int ky = first; ky < last; ++ky)
+      for (int kx = 0; kx <= half_; ++kx) {
+        const bool empty = highest(kx, ky, n) || (kx == 0 && ky == 0);
+        const double k = dk * std::hypot(kx, ky);
+        double root = empty ? 0 : std::sqrt(radial_density(sea, k) / k / 2) * dk;
+        if (tile_.spline) root /= spline_response(kx, n) * spline_response(ky, n);
+        for (const int sign : {1, -1}) {
+          if (sign < 0 && (ky == 0 || ky == half_)) continue;
+          const auto with = empty ? 0 : amplitude(kx, sign * ky, root);
+          const auto against = empty ? 0 : amplitude(-kx, -sign * ky, root);
+          float* row = mode_row((sign * ky + n) % n) + kx;
+          row[0] = with.real() + against.real();
+          row[stride_] = with.imag() + against.imag();
+          row[2 * stride_] = with.imag() - against.imag();
+          row[3 * stride_] = against.real() - with.real();
+        }
+      }
+  });
+}
+
+const InverseFft2& Waves::at(double time, Quantity quantity) {
+  const int n = tile_.resolution;
+  const auto phases = has_avx2() ? wave_phases_avx2 : wave_phases;
+  const auto modes = has_avx2() ? wave_modes_avx2 : wave_modes;
+  const float dk = static_cast<float>(turn / tile_.side);
+  std::vector<float> cosines(stride_), sines(stride_);
+  const auto fill = [&](int ky) {
+    std::complex<float>* row = transform_.spectrum_row((ky + n) % n);
+    modes(mode_row((ky + n) % n), stride_, cosines.data(), sines.data(), half_ + 1, reinterpret_cast<float*>(row));
+    if (quantity == Quantity::height) return;
+    for (int kx = 0; kx <= half_; ++kx) {
+      const float k = dk * static_cast<float>(quantity == Quantity::slope_right ? kx : ky);
+      row[kx] = {-k * row[kx].imag(), k * row[kx].real()};
+    }
+  };
+  for (int ky = 0; ky <= half_; ++ky) {
+    phases(turns_.data() + static_cast<size_t>(ky) * stride_, time, half_ + 1, cosines.data(), sines.data());
+    fill(ky);
+    if (ky > 0 && ky < half_) fill(-ky);
+  }
+  transform_.run();
+  return transform_;
+}
+
+}  // namespace stillwater
