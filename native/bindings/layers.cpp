@@ -15,6 +15,7 @@ using FillGiven = std::variant<Fill, FloatArray>;
 using ExactArray = py::array_t<float, py::array::c_style>;
 
 LayerImage layer_image(const ExactArray& pixels, const std::array<int, 4>& box) {
+  if (pixels.size() == 0 && box[2] * box[3] == 0) return {};  // a layer without coverage
   const Rgba image(as_image<cv::Vec4f>(pixels, "pixels"));
   if (image.cols != box[2] || image.rows != box[3]) throw BadInput("box: its size is not that of the pixels");
   return {image, {box[0], box[1], box[2], box[3]}};

@@ -8,6 +8,7 @@
 #include "core/process.h"
 #include "picture/colour.h"
 #include "picture/read.h"
+#include "picture/read_frame.h"
 #include "picture/write_frame.h"
 #include "picture/write_picture.h"
 
@@ -76,6 +77,7 @@ void bind_picture(py::module_& module) {
            py::arg("key") = FrameOptions().key);
   module.def("write_frame", &write_frame_of_arrays, py::arg("path"), py::arg("combined"), py::arg("flow") = std::nullopt,
              py::arg("matte") = std::nullopt, py::arg("layers") = Layers(), py::arg("options") = FrameOptions());
+  module.def("read_frame", [](const std::string& path) { return as_array(read_frame(path)); }, py::arg("path"));
   module.def("read_frame_key", &read_frame_key, py::arg("path"), NoGil());
   module.def("layer_names", &layer_names, py::arg("names"));
   module.def(

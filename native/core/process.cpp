@@ -115,11 +115,11 @@ void end_with_standard_input() {
 bool process_runs(long id) {
 #if defined(_WIN32)
   const HANDLE process = OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(id));
-  if (process == nullptr) return GetLastError() == ERROR_ACCESS_DENIED;
+  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
   DWORD code = 0;
-  const bool runs = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
+  const bool running = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
   CloseHandle(process);
-  return runs;
+  return running;
 #else
   return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM;
 #endif

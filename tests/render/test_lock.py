@@ -47,9 +47,10 @@ def test_a_lock_that_was_not_taken_gives_nothing_back(path):
 @pytest.mark.parametrize(
     "host, process, silent, held",
     [
-        (HERE, os.getpid(), 0, True),
-        (HERE, os.getpid(), SILENT + 5, True),
-        (HERE, os.getpid(), SILENT_HERE + 5, False),
+        (HERE, os.getppid(), 0, True),
+        (HERE, os.getppid(), SILENT + 5, True),
+        (HERE, os.getppid(), SILENT_HERE + 5, False),
+        (HERE, os.getpid(), 0, False),  # of a worker before us, whose number we have now
         (HERE, None, 0, False),
         ("elsewhere", 1, 0, True),
         ("elsewhere", 1, SILENT + 5, False),

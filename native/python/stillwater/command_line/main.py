@@ -4,7 +4,6 @@ import argparse
 import os
 import signal
 import sys
-import traceback
 
 from ..recipe import RecipeError
 from ..render.errors import Refused
@@ -43,6 +42,8 @@ def run(arguments: list[str]) -> int:
         return FAILED
     except Exception as error:  # noqa: BLE001
         if os.environ.get("STILLWATER_TRACEBACK") == "1":
+            import traceback
+
             traceback.print_exc()
         return _end(error, given)
 

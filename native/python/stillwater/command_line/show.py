@@ -57,8 +57,8 @@ class _Bar:
 
         match event:
             case Started():
+                tqdm.monitor_interval = 0  # no thread
                 self._bar = tqdm(total=event.of, unit="frame", desc=event.folder, dynamic_ncols=True)
-                self._bar.monitor_interval = 0  # no thread
             case Preparing():
                 self._bar.set_postfix_str(f"{event.what} ({event.share:.0%})" if event.share < 1 else "")
             case Frame():

@@ -11,7 +11,7 @@ import msgspec
 
 from ..recipe import Recipe
 from ..recipe.mattes import ExemplarFill, FileFill, FileMatte
-from ..recipe.stochastic import Bob, Ripple, Still, Sway
+from ..recipe.stochastic import Bob, Drift, Ripple, Sway
 from .resolve import Now, Timeline
 
 # Raised by who changes what an engine computes: frames and preparations made by another version are made again.
@@ -60,6 +60,7 @@ class FrameKeys:
         kinds = {type(recipe.layers[i].motion) for i in self._needed}
         self._has_waves = Ripple in kinds
         self._has_time = bool(kinds & {Ripple, Sway})
+        self._drifts_in_loop = recipe.loop and Drift in kinds
         motions = {kind.__struct_config__.tag for kind in kinds} | ({"wind"} if self._has_time else set())
         output = recipe.output
         self._fixed = {
@@ -85,9 +86,9 @@ class FrameKeys:
             for i, layer in enumerate(now.layers)
             if i in self._needed
         }
-        if not self._has_time:
-            return layers
         moment = now.moment
+        if not self._has_time:  # what drifts through a loop reads where in it it is
+            return [[moment.frame, moment.first_frame, moment.loop_frames] if self._drifts_in_loop else None, layers]
         if moment.wind.gusts == 0:  # then nothing of the gusts is read
             wind = msgspec.structs.replace(moment.wind, gust_size=0, seed=0, travel=(0, 0))
             moment = msgspec.structs.replace(moment, wind=wind, loop_travel=(0, 0))
@@ -101,7 +102,8 @@ class FrameKeys:
         layer = layers[i]
         follows = layer.follows and [place[layer.follows.layer], layer.follows.mirror]
         water = place[layer.motion.water] if isinstance(layer.motion, Bob) else None
-        return {"visible": layer.visible, "follows": follows, "water": water}
+        endless = self._timeline.endless[i]
+        return {"visible": layer.visible, "follows": follows, "water": water, "endless": endless}
 
     def _view(self):
         recipe = self._timeline.recipe

@@ -14,9 +14,11 @@ from pathlib import Path
 from .. import _stillwater as engine
 
 SILENT = 60.0  # seconds without a heartbeat, after which a worker on another machine counts as gone
-SILENT_HERE = 1800.0  # the same on this machine, while a process of its number runs
+SILENT_HERE = 300.0  # the same on this machine, while a process of its number runs
 UNSIGNED = 5.0  # seconds within which whoever made the file must have written its name into it
 PATIENCE = 0.05  # seconds between two looks
+
+_ours: set[str] = set()  # marks of the locks that this process has
 
 
 class Lock:
@@ -37,6 +39,7 @@ class Lock:
             if not self._make():
                 return False
         self._file = engine.TemporaryFile(str(self.path))
+        _ours.add(self._mark)
         return True
 
     def wait(self, between=lambda: None) -> None:
@@ -57,6 +60,7 @@ class Lock:
 
     def release(self) -> None:
         self._file = None  # removes the file
+        _ours.discard(self._mark)
 
     def __enter__(self):
         return self
@@ -99,7 +103,8 @@ def holder(path: Path) -> str | None:
         return "a worker that just starts" if silent < UNSIGNED else None
     host, process = words[0], int(words[1])
     if host == socket.gethostname():
-        alive = engine.process_runs(process) and silent < SILENT_HERE
+        another = process != os.getpid() or mark in _ours  # a worker before us may have had our number
+        alive = another and engine.process_runs(process) and silent < SILENT_HERE
     else:
         alive = silent < SILENT
     return f"process {process} on {host}" if alive else None

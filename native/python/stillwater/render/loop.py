@@ -95,19 +95,17 @@ class Job:
                 made.combined,
                 made.flow,
                 made.matte,
-                layers=self._own_layers(made) if output.layers else {},
-                half=output.depth == "half",
-                compression=output.compression,
-                key=key,
+                layers=self._own_layers(made) if output.layers else [],
+                options=engine.FrameOptions(half=output.depth == "half", compression=output.compression, key=key),
             )
         except engine.FileError as error:
             raise Failed(str(error)) from None
 
-    def _own_layers(self, made) -> dict[str, np.ndarray]:
-        """The layers that are not hidden, each alone; one without coverage is empty in the engine's answer."""
+    def _own_layers(self, made) -> list[tuple[str, np.ndarray]]:
+        """The layers that are not hidden, each alone; one that covers nothing is None in the engine's answer."""
         nothing = np.zeros_like(made.combined)
         layers = zip(self.recipe.layers, made.layers, strict=True)
-        return {layer.name: picture if picture.size else nothing for layer, picture in layers if layer.visible}
+        return [(layer.name, nothing if picture is None else picture) for layer, picture in layers if layer.visible]
 
 
 def render(document: Document, order: Order) -> Iterator[Event]:

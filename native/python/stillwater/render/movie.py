@@ -26,18 +26,20 @@ class Movie:
             raise Refused(f"--movie: {path} is not a file name that says what kind of film (such as film.mp4)")
         if not path.parent.is_dir():
             raise Refused(f"--movie: {path.parent}: there is no such folder")
-        self._aside = path.with_name(f".{path.stem}.unfinished{path.suffix}")
+        self._aside = engine.temporary_name(str(path.absolute()))
         self._process = None
 
     def begin(self, size: tuple[int, int], fps: float) -> None:
-        self._file = engine.TemporaryFile(str(self._aside))
+        """Starts ffmpeg for frames of this size, `fps` a second."""
+        engine.sweep_temporaries(str(self.path.absolute().parent))
+        self._file = engine.TemporaryFile(self._aside)
         self._complaints = tempfile.TemporaryFile()
         command = [self._program, "-loglevel", "error", "-nostdin", "-y"]
         command += ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-r", repr(fps), "-i", "pipe:"]
         # Even sides are what 4:2:0 needs; sRGB's primaries are those of BT.709.
         command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"]
         command += ["-c:v", "libx264", "-crf", "16", "-colorspace", "bt709", "-color_primaries", "bt709"]
-        command += ["-color_trc", "iec61966-2-1", "-color_range", "tv", "-movflags", "+faststart", str(self._aside)]
+        command += ["-color_trc", "iec61966-2-1", "-color_range", "tv", "-movflags", "+faststart", self._aside]
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._complaints
         )

@@ -48,9 +48,10 @@ class Sources:
         """Of the picture, from its header."""
         path = self.document.locate(self.recipe.picture)
         try:
-            width, height = engine.inspect_picture(str(path))[:2]
+            facts = engine.inspect_picture(str(path))
         except (engine.BadInput, engine.FileError) as error:
             raise RecipeError(f"picture: {error}") from None
+        width, height = facts.width, facts.height
         wanted = self.recipe.size
         if wanted is not None and wanted != (width, height):
             raise RecipeError(f"size: {list(wanted)} is not the size of the picture, {width} x {height}")
@@ -59,13 +60,8 @@ class Sources:
     def read(self) -> Generator[Preparing, None, Images]:
         """Reads every file and checks them against each other. Throws RecipeError with all that is wrong."""
         yield Preparing(0, "reading the picture")
-        try:
-            picture, has_alpha, bad = engine.read_picture(str(self._path(self.recipe.picture)), self.recipe.colour_space)
-        except (engine.BadInput, engine.FileError) as error:
-            raise RecipeError(f"picture: {error}") from None
-        images = Images(picture, has_alpha)
-        if bad:
-            images.warnings.append(f"picture: {_count(bad)} not {'a finite number and counts' if bad == 1 else 'finite numbers and count'} as 0")
+        picture, said = self._picture("picture", self.recipe.picture)
+        images = Images(picture.image, picture.has_alpha, warnings=said)
         problems, labels = [], {}
         for i, layer in enumerate(self.recipe.layers):
             yield Preparing(round(0.1 + 0.3 * i / len(self.recipe.layers), 3), f"reading {layer.name}")
@@ -107,11 +103,21 @@ class Sources:
         if not isinstance(layer.fill, FileFill):
             return engine.Fill.none
         place = f"layers[{i}].fill.file"
-        painted, _, bad = _read(place, engine.read_picture, str(self._path(layer.fill.file)), self.recipe.colour_space)
-        if bad:
-            images.warnings.append(f"{place}: {_count(bad)} not finite and count as 0")
-        self._check_size(f"{place}: {layer.fill.file}", painted, images)
-        return painted
+        painted, said = self._picture(place, layer.fill.file)
+        images.warnings += said
+        self._check_size(f"{place}: {layer.fill.file}", painted.image, images)
+        return painted.image
+
+    def _picture(self, place: str, name: str):
+        """A picture, and what is odd about it."""
+        space = engine.colour_space_named(self.recipe.colour_space)
+        picture = _read(place, engine.read_picture, str(self._path(name)), space)
+        if not picture.bad_pixels:
+            return picture, []
+        many = "1 pixel is not a finite number and counts" if picture.bad_pixels == 1 else (
+            f"{picture.bad_pixels} pixels are not finite numbers and count"
+        )  # fmt: skip
+        return picture, [f"{place}: {many} as 0"]
 
     def _check_size(self, place: str, image: np.ndarray, images: Images) -> None:
         (height, width), (full_height, full_width) = image.shape[:2], images.picture.shape[:2]
@@ -210,6 +216,3 @@ def _read(place: str, function, *arguments):
     except (engine.BadInput, engine.FileError) as error:
         raise RecipeError(f"{place}: {error}") from None
 
-
-def _count(pixels: int) -> str:
-    return "1 pixel is" if pixels == 1 else f"{pixels} pixels are"

@@ -19,6 +19,7 @@ class Renderer:
         place = {layer.name: i for i, layer in enumerate(recipe.layers)}
         start = timeline.at(recipe.frames[0])
         self._timeline, self._layers_too = timeline, recipe.output.layers
+        images = layer_images(stack, "colour")
         layers = [
             engine.Layer(
                 image,
@@ -27,8 +28,9 @@ class Renderer:
                 follows=place[layer.follows.layer] if layer.follows else -1,
                 mirror=bool(layer.follows and layer.follows.mirror),
                 visible=layer.visible,
+                endless=endless,
             )
-            for image, layer, now in zip(layer_images(stack, "colour"), recipe.layers, start.layers, strict=True)
+            for image, layer, now, endless in zip(images, recipe.layers, start.layers, timeline.endless, strict=True)
         ]
         view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
         self._renderer = engine.FrameRenderer(

@@ -71,6 +71,7 @@ class Timeline:
         self._wind_seed = seed_of(recipe, "wind") if wind.seed is None else wind.seed
         self._opacities = [self._track(layer.opacity) for layer in recipe.layers]
         self._motions = [self._motion(layer) for layer in recipe.layers]
+        self.endless = [self._endless(layer) for layer in recipe.layers]
 
     def at(self, frame: int) -> Now:
         """The numbers of one frame."""
@@ -105,11 +106,26 @@ class Timeline:
         tracks = {name: self._track(getattr(still, name)) for name in ANIMATED.get(type(still), ())}
         return lambda frame: msgspec.structs.replace(still, **{name: track.at(frame) for name, track in tracks.items()})
 
-    def _drift(self, drift: Drift):
+    def _endless(self, layer: Layer) -> tuple[bool, bool]:
+        """Along which axes a layer must go on for ever: where it, or the layer that it follows, ever drifts."""
+        along = (False, False)
+        if isinstance(layer.motion, Drift):
+            along = tuple(rate.values.any() for rate in self._rates(layer.motion))
+        if layer.follows is not None:
+            led = self._endless(next(other for other in self.recipe.layers if other.name == layer.follows.layer))
+            if layer.follows.mirror and any(led):  # the mirror's axis may be tilted
+                led = (True, True)
+            along = tuple(a or b for a, b in zip(along, led, strict=True))
+        return bool(along[0]), bool(along[1])
+
+    def _rates(self, drift: Drift) -> tuple[Track, Track]:
+        """Velocity to the right and down, px a frame."""
         if drift.velocity is None:
-            rates = (combine(lambda v: v * drift.wind, self._along), Track(1, [0.0], self.loop))
-        else:
-            rates = (self._track(drift.velocity, 0), self._track(drift.velocity, 1))
+            return combine(lambda v: v * drift.wind, self._along), Track(1, [0.0], self.loop)
+        return self._track(drift.velocity, 0), self._track(drift.velocity, 1)
+
+    def _drift(self, drift: Drift):
+        rates = self._rates(drift)
         in_loop = tuple(rate.over_loop() for rate in rates)
         return lambda frame: DriftNow(tuple(rate.integral(frame) for rate in rates), in_loop)
 
