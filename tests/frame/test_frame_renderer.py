@@ -28,7 +28,7 @@ def test_every_layer_moves():
     moved = np.abs(stage.frame(30).combined - stage.image)[..., :3].max(axis=2)
     for area in (TREE, BOAT, MATTES[3], SEA):
         assert (moved[area == 1] > 0.05).mean() > 0.3
-    assert not moved[20:24, 50:].any()
+    assert not moved[20:24, 60:].any()
 
 
 def test_any_frame_alone_and_in_any_order():
