@@ -17,9 +17,10 @@ struct SwayKernel {
 // The vector (dx, dy) from the root, turned by `sign` times the angle that belongs to its length; gives the change.
 static inline void sway_turn(const SwayKernel& k, float sign, float dx, float dy, float* change_x, float* change_y) {
   const float u = sqrtf(dx * dx + dy * dy) * k.inverse_length;
-  const float inside = u * (2.0f + u * (-4.0f / 3.0f + u * (1.0f / 3.0f)));  // eq. 3 over u
-  const float outside = 1.0f / (u < 1.0f ? 1.0f : u);
-  const float angle = sign * k.tip_angle * (u < 1.0f ? inside : outside);
+  const float v = u < 1.0f ? u : 1.0f;
+  const float beyond = u > 1.0f ? u : 1.0f;
+  const float share = v * (2.0f + v * (-4.0f / 3.0f + v * (1.0f / 3.0f))) / beyond;  // eq. 3 over u; 1 / u beyond the tip
+  const float angle = sign * k.tip_angle * share;
   const float a2 = angle * angle;
   const float sine =
       angle * (1.0f + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880)))));
