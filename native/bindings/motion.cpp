@@ -34,6 +34,14 @@ py::array_t<float> evaluated(Field map(const Displacement&, int, int), const Dis
   return as_array(field);
 }
 
+// Points in rows and columns, x and y last, moved by one of a displacement's functions.
+py::array_t<float> moved(void (Displacement::*move)(float*, float*, int) const, const Displacement& displacement,
+                         const FloatArray& points) {
+  Field result = as_image<cv::Vec2f>(points, "points").clone();
+  for (cv::Vec2f& point : result) (displacement.*move)(&point[0], &point[1], 1);
+  return as_array(result);
+}
+
 void bind_wind(py::module_& module) {
   py::class_<Wind>(module, "Wind")
       .def(py::init([](double speed, double direction, double gusts, double gust_size, std::uint64_t seed, Pair travel) {
@@ -92,6 +100,12 @@ void bind_displacement(py::module_& module) {
   py::class_<Displacement, std::shared_ptr<Displacement>>(module, "Displacement")
       .def("at_rest", &Displacement::at_rest)
       .def("reach", &Displacement::reach)
+      .def(
+          "map", [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::map, self, points); },
+          py::arg("points"))
+      .def(
+          "unmap", [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::unmap, self, points); },
+          py::arg("points"))
       .def(
           "displacement_map",
           [](const Displacement& self, std::array<int, 2> size) { return evaluated(displacement_map, self, size); },

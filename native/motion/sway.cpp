@@ -152,17 +152,20 @@ TipMotion SwayMotion::tip(const Moment& moment, const Sway& now) const {
   const TurbulenceClock clock = turbulence_clock(moment);
   const std::complex<double> step = std::polar(1.0, 2 * std::numbers::pi * clock.turn);
   std::complex<double> phase = 1;
+  double expected = 0;
   for (int k = 1; k <= clock.modes; ++k) {
     phase *= step;
     const double f = k / clock.period;
-    const double velocity = std::sqrt(wind_spectrum(f, speed) / clock.period);
+    const double power = wind_spectrum(f, speed) / clock.period;
+    const double velocity = std::sqrt(power);
     const std::complex<double> response = oscillator.response(f);
+    expected += power * std::norm(response);
     across.add(state_->noise, k, phase, velocity, response);
     depth.add(state_->noise, k, phase, velocity, response);
   }
 
-  // Its expected strength, and the gusts.
-  const double expected = expected_square(oscillator, speed);
+  // Its expected strength: of a long series, also where a loop's is short. The gusts.
+  if (clock.period != turbulence_period) expected = expected_square(oscillator, speed);
   const double gust = state_->gusts.factor(middle(armature), moment);
   const double lean = lean_share * speed * state_->gusts.response(middle(armature), moment, oscillator);
   const double scale = force_of_wind(now, length(armature));
