@@ -14,6 +14,7 @@ namespace stillwater {
 namespace {
 
 constexpr double rms_at_amount_1 = 0.05;  // of the armature's length, under the default Wind and Sway
+constexpr double shortening_at_1 = 0.5;     // of foreshortening: as seen from 30 degrees below
 constexpr double furthest_armature = 1e6;  // px
 
 void check_sway(const Sway& sway) {
@@ -183,7 +184,7 @@ std::shared_ptr<const Displacement> SwayMotion::at(const Moment& moment, const S
   const TipMotion tip_motion = tip(moment, now);
   const double full = length(armature);
   const double angle = soft_limit(tip_motion.across / full);
-  const double shortening = sway.foreshortening * soft_limit(tip_motion.depth / full);
+  const double shortening = shortening_at_1 * sway.foreshortening * soft_limit(tip_motion.depth / full);
 
   SwayKernel kernel{};
   kernel.root_x = static_cast<float>(armature.from.x);

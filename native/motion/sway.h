@@ -18,7 +18,7 @@ struct Sway {
   double mass = 1;            ///< m, above 0
   double damping = 0.4;       ///< gamma, 1/s, above 0
   double amount = 1;          ///< 1 = a tip rms of 0.05 of the armature's length, upright, wind of 5 m/s along the picture, the rest default
-  double foreshortening = 0;  ///< 0 .. 1, share of the tip's motion in depth that shows as a change of length
+  double foreshortening = 0;  ///< 0 .. 1, how much the tip's motion in depth changes the length; 1 = as seen from 30 degrees below
   double shimmer = 0;         ///< 0 .. 1, see shimmer.h
   std::uint64_t seed = 0;
 };
@@ -49,7 +49,8 @@ struct TipMotion {
 ///
 /// The radius stays, so the opposite angle is the exact inverse, and nothing ever folds. d_tip is limited softly to the
 /// armature's length (x / (1 + x^4)^(1/4) of it: 1e-4 less at 0.15, 0.2 % at 0.3): a turn of 1 rad.
-/// Before it is turned, the layer is scaled along the armature, about the root, by exp(-foreshortening depth / length).
+/// Before it is turned, the layer is scaled along the armature, about the root, by
+/// exp(-foreshortening depth / (2 length)); depth is limited alike.
 class SwayMotion {
  public:
   static constexpr double side_share = 0.5;
