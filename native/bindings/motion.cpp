@@ -25,7 +25,8 @@ auto pair_of(Point Owner::*member) {
   return py::cpp_function([member](const Owner& owner) { return as_pair(owner.*member); });
 }
 
-py::array_t<float> evaluated(Field map(const Displacement&, int, int), const Displacement& displacement, std::array<int, 2> size) {
+py::array_t<float> evaluated(Field map(const Displacement&, int, int), const Displacement& displacement,
+                             std::array<int, 2> size) {
   Field field;
   {
     const py::gil_scoped_release released;
@@ -44,9 +45,8 @@ py::array_t<float> moved(void (Displacement::*move)(float*, float*, int) const, 
 
 void bind_wind(py::module_& module) {
   py::class_<Wind>(module, "Wind")
-      .def(py::init([](double speed, double direction, double gusts, double gust_size, std::uint64_t seed, Pair travel) {
-             return Wind{speed, direction, gusts, gust_size, seed, as_point(travel)};
-           }),
+      .def(py::init([](double speed, double direction, double gusts, double gust_size, std::uint64_t seed,
+                       Pair travel) { return Wind{speed, direction, gusts, gust_size, seed, as_point(travel)}; }),
            py::kw_only(), py::arg("speed") = Wind().speed, py::arg("direction") = Wind().direction,
            py::arg("gusts") = Wind().gusts, py::arg("gust_size") = Wind().gust_size, py::arg("seed") = Wind().seed,
            py::arg("travel") = Pair{0, 0})
@@ -83,7 +83,9 @@ void bind_wind(py::module_& module) {
            py::arg("gust_size"), py::arg("seed"), py::arg("picture"))
       .def(
           "factor",
-          [](const GustField& gusts, Pair place, const Moment& moment) { return gusts.factor(as_point(place), moment); },
+          [](const GustField& gusts, Pair place, const Moment& moment) {
+            return gusts.factor(as_point(place), moment);
+          },
           py::arg("place"), py::arg("moment"))
       .def(
           "response",
@@ -101,10 +103,12 @@ void bind_displacement(py::module_& module) {
       .def("at_rest", &Displacement::at_rest)
       .def("reach", &Displacement::reach)
       .def(
-          "map", [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::map, self, points); },
+          "map",
+          [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::map, self, points); },
           py::arg("points"))
       .def(
-          "unmap", [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::unmap, self, points); },
+          "unmap",
+          [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::unmap, self, points); },
           py::arg("points"))
       .def(
           "displacement_map",
@@ -126,8 +130,8 @@ void bind_displacement(py::module_& module) {
 void bind_sway(py::module_& module) {
   const Sway usual;
   py::class_<Sway>(module, "Sway")
-      .def(py::init([](const std::array<Pair, 2>& armature, double frequency, double mass, double damping, double amount,
-                       double foreshortening, double shimmer, std::uint64_t seed) {
+      .def(py::init([](const std::array<Pair, 2>& armature, double frequency, double mass, double damping,
+                       double amount, double foreshortening, double shimmer, std::uint64_t seed) {
              return Sway{as_segment(armature), frequency, mass, damping, amount, foreshortening, shimmer, seed};
            }),
            py::kw_only(), py::arg("armature"), py::arg("frequency") = usual.frequency, py::arg("mass") = usual.mass,
@@ -164,7 +168,9 @@ void bind_sway(py::module_& module) {
 
 void bind_drift(py::module_& module) {
   py::class_<Drift>(module, "Drift")
-      .def(py::init([](Pair offset, Pair loop_offset) { return Drift{as_point(offset), as_point(loop_offset)}; }),
+      .def(py::init([](Pair offset, Pair loop_offset) {
+             return Drift{as_point(offset), as_point(loop_offset)};
+           }),
            py::kw_only(), py::arg("offset") = Pair{0, 0}, py::arg("loop_offset") = Pair{0, 0})
       .def_property_readonly("offset", pair_of(&Drift::offset))
       .def_property_readonly("loop_offset", pair_of(&Drift::loop_offset));

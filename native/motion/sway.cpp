@@ -73,7 +73,8 @@ struct Driven {
   Share share;
   double motion = 0, force = 0, square = 0;
 
-  void add(const TurbulenceNoise& noise, int k, std::complex<double> phase, double velocity, std::complex<double> response) {
+  void add(const TurbulenceNoise& noise, int k, std::complex<double> phase, double velocity,
+           std::complex<double> response) {
     const std::complex<double> wind = velocity * share.of(noise, k);
     force += (wind * phase).real();
     motion += (response * wind * phase).real();
@@ -127,7 +128,8 @@ struct SwayMotion::State {
 SwayMotion::SwayMotion(const Sway& sway, const Wind& wind, cv::Size picture) {
   check_sway(sway);
   check_wind(wind);
-  state_ = std::make_shared<State>(State{sway, picture, TurbulenceNoise(sway.seed), GustField(wind.gust_size, wind.seed, picture),
+  state_ = std::make_shared<State>(State{sway, picture, TurbulenceNoise(sway.seed),
+                                         GustField(wind.gust_size, wind.seed, picture),
                                          Shimmer(sway.armature, sway.seed)});
 }
 
@@ -198,13 +200,16 @@ std::shared_ptr<const Displacement> SwayMotion::at(const Moment& moment, const S
 
   std::unique_ptr<const Displacement> leaves;
   if (sway.shimmer > 0 && moment.wind.speed > 0) {
-    leaves = state_->shimmer.at(moment, sway.shimmer, moment.wind.speed * state_->gusts.factor(middle(armature), moment));
+    const double local_speed = moment.wind.speed * state_->gusts.factor(middle(armature), moment);
+    leaves = state_->shimmer.at(moment, sway.shimmer, local_speed);
   }
 
   // A turn moves a point along an arc no longer than the tip's; a scale, in proportion to the distance.
-  const double furthest = std::hypot(std::max(std::abs(armature.from.x), std::abs(state_->picture.width - armature.from.x)),
-                                     std::max(std::abs(armature.from.y), std::abs(state_->picture.height - armature.from.y)));
-  const double reach = std::abs(angle) * full + std::expm1(std::abs(shortening)) * furthest + (leaves ? leaves->reach() : 0);
+  const Point root = armature.from;
+  const double furthest = std::hypot(std::max(std::abs(root.x), std::abs(state_->picture.width - root.x)),
+                                     std::max(std::abs(root.y), std::abs(state_->picture.height - root.y)));
+  double reach = std::abs(angle) * full + std::expm1(std::abs(shortening)) * furthest;
+  if (leaves) reach += leaves->reach();
   return std::make_shared<Bending>(kernel, static_cast<float>(reach), std::move(leaves));
 }
 

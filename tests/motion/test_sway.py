@@ -197,7 +197,8 @@ def test_leaning_away_shortens():
     wind = stillwater.Wind(direction=90)
     for frame in (10, 40):
         depth = tips([(frame - 1) / 24], wind=wind)[1][0] / LENGTH
-        moved = grid()[130, 150] + stillwater.sway(SIZE, frame, ARMATURE, wind=wind, foreshortening=1, forward=True)[130, 150]
+        forward = stillwater.sway(SIZE, frame, ARMATURE, wind=wind, foreshortening=1, forward=True)
+        moved = grid()[130, 150] + forward[130, 150]
         before = np.hypot(*(grid()[130, 150] - ARMATURE[0]))
         assert np.hypot(*(moved - ARMATURE[0])) / before == pytest.approx(np.exp(-depth / 2), rel=1e-4)
 
@@ -254,8 +255,9 @@ def test_two_trees_answer_one_gust_after_its_way():
     for x in (200.0, 400.0):
         tree = engine.Sway(armature=((x, 380), (x, 200)), seed=int(x))
         motion = engine.SwayMotion(tree, gusty.moment(1).wind, size)
-        tip = {wind: np.array([motion.tip(wind.moment(1 + t * fps), tree).across for t in times]) for wind in (gusty, calm)}
-        leans.append(tip[gusty] - np.array([gusty.gust((x, 290), size, 1 + t * fps) for t in times]) * tip[calm])
+        frames = 1 + times * fps
+        windy, still = ([motion.tip(wind.moment(f), tree).across for f in frames] for wind in (gusty, calm))
+        leans.append(windy - np.array([gusty.gust((x, 290), size, f) for f in frames]) * still)
     lags = np.arange(20, 100)
     inner = len(times) - 100
     match = [np.corrcoef(leans[0][:inner], leans[1][lag : lag + inner])[0, 1] for lag in lags]
@@ -266,7 +268,8 @@ def test_two_trees_answer_one_gust_after_its_way():
 def test_the_plain_way_is_the_fast_way():
     script = (
         "import sys, stillwater; from stillwater import _stillwater as engine; assert not engine.has_avx2();"
-        f"sys.stdout.buffer.write(stillwater.sway({SIZE}, 33, {ARMATURE}, amount=3, shimmer=1, foreshortening=1).tobytes())"
+        f"drawn = stillwater.sway({SIZE}, 33, {ARMATURE}, amount=3, shimmer=1, foreshortening=1);"
+        "sys.stdout.buffer.write(drawn.tobytes())"
     )
     plain = subprocess.run(
         [sys.executable, "-c", script],
@@ -282,7 +285,10 @@ def test_the_plain_way_is_the_fast_way():
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ({"armature": ((5, 5), (5, 5))}, "armature: a line from a point to itself is not a line with two different ends"),
+        (
+            {"armature": ((5, 5), (5, 5))},
+            "armature: a line from a point to itself is not a line with two different ends",
+        ),
         ({"armature": ((5, 5), (5, 2e6))}, "armature: 2e+06 is not between -1e+06 and 1e+06 (px)"),
         ({"frequency": 0}, "frequency: 0 is not above 0 (Hz)"),
         ({"mass": -1}, "mass: -1 is not above 0"),

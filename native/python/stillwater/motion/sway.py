@@ -29,7 +29,7 @@ def sway(
     wind: a Wind; None = the default one.
     fps: frames per second. loop: period in frames; None = no loop (the motion repeats after 128 s).
     frequency: natural, Hz. mass: relative. damping: 1/s.
-    amount: 1 is a tip rms of 0.05 of the armature's length, upright, in a wind of 5 m/s along the picture, the rest default.
+    amount: 1 is a tip rms of 0.05 of the armature's length (upright, default wind and numbers).
     foreshortening: 0 .. 1, how much the tip's motion in depth changes the length; 1 = as seen from 30 degrees below.
     shimmer: 0 .. 1, small independent motion of leaves.
     seed: of this layer's share of the wind.
