@@ -6,6 +6,7 @@
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
 #include "core/process.h"
+#include "picture/clip.h"
 #include "picture/colour.h"
 #include "picture/read.h"
 #include "picture/write_frame.h"
@@ -17,13 +18,18 @@ namespace {
 using NoGil = py::call_guard<py::gil_scoped_release>;
 using Layers = std::vector<std::pair<std::string, FloatArray>>;
 
+template <class Work>
+auto without_gil(Work&& work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
 py::array_t<float> through(void (*curve)(const float*, float*, std::size_t), const FloatArray& array) {
   py::array_t<float> result(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()));
   const float* in = array.data();
   float* out = result.mutable_data();
   const auto count = static_cast<std::size_t>(array.size());
-  const py::gil_scoped_release no_gil;
-  curve(in, out, count);
+  without_gil([&] { curve(in, out, count); });
   return result;
 }
 
@@ -34,8 +40,7 @@ void write_frame_of_arrays(const std::string& path, const FloatArray& combined, 
   if (flow) images.flow = as_image<cv::Vec2f>(*flow, "flow");
   if (matte) images.matte = as_image<float>(*matte, "matte");
   for (const auto& [name, image] : layers) images.layers.push_back({name, as_image<cv::Vec4f>(image, name)});
-  const py::gil_scoped_release no_gil;
-  write_frame(path, images, options);
+  without_gil([&] { write_frame(path, images, options); });
 }
 
 }  // namespace
@@ -63,9 +68,15 @@ void bind_picture(py::module_& module) {
   module.def("colour_space_named", &colour_space_named, py::arg("name"));
   module.def("read_picture", &read_picture, py::arg("path"), py::arg("colour_space") = ColourSpace::automatic, NoGil());
   module.def(
-      "read_matte", [](const std::string& path, const std::string& channel) { return as_array(read_matte(path, channel)); },
+      "read_matte",
+      [](const std::string& path, const std::string& channel) {
+        return as_array(without_gil([&] { return read_matte(path, channel); }));
+      },
       py::arg("path"), py::arg("channel") = "");
-  module.def("read_labels", [](const std::string& path) { return as_array(read_labels(path)); }, py::arg("path"));
+  module.def(
+      "read_labels",
+      [](const std::string& path) { return as_array(without_gil([&] { return read_labels(path); })); },
+      py::arg("path"));
   module.def("inspect_picture", &inspect_picture, py::arg("path"), NoGil());
 
   py::class_<FrameOptions>(module, "FrameOptions", "How a frame is written: half, compression, key.")
@@ -82,10 +93,22 @@ void bind_picture(py::module_& module) {
       "write_picture",
       [](const std::string& path, const FloatArray& image, int bits) {
         const Rgba picture = as_image<cv::Vec4f>(image, "image");
-        const py::gil_scoped_release no_gil;
-        write_picture(path, picture, bits);
+        without_gil([&] { write_picture(path, picture, bits); });
       },
       py::arg("path"), py::arg("image"), py::arg("bits") = 0);
+  py::class_<Clip>(module, "Clip", "A clip of footage: frames, fps, width, height, frame(number, width, height).")
+      .def(py::init<const std::string&>(), py::arg("path"), NoGil())
+      .def_property_readonly("frames", &Clip::frames)
+      .def_property_readonly("fps", &Clip::fps)
+      .def_property_readonly("width", &Clip::width)
+      .def_property_readonly("height", &Clip::height)
+      .def(
+          "frame",
+          [](Clip& clip, int number, int width, int height) {
+            return as_array(without_gil([&] { return clip.frame(number, width, height); }));
+          },
+          py::arg("number"), py::arg("width"), py::arg("height"));
+
   module.def("temporary_name", &temporary_name, py::arg("path"));
   module.def("sweep_temporaries", &sweep_temporaries, py::arg("folder"), NoGil());
 }

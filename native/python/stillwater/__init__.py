@@ -17,6 +17,11 @@ _HOMES = {
     "RecipeError": "recipe",
     "load": "recipe",
     "parse": "recipe",
+    "read": "images",
+    "write": "images",
+    "read_clip": "images",
+    "srgb_to_linear": "images",
+    "linear_to_srgb": "images",
 }
 
 __all__ = sorted(_HOMES)

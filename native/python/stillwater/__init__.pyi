@@ -1,0 +1,14 @@
+from ._stillwater import BadInput as BadInput
+from ._stillwater import Cancelled as Cancelled
+from ._stillwater import FileError as FileError
+from ._stillwater import NotConverged as NotConverged
+from ._stillwater import __version__ as __version__
+from .images import linear_to_srgb as linear_to_srgb
+from .images import read as read
+from .images import read_clip as read_clip
+from .images import srgb_to_linear as srgb_to_linear
+from .images import write as write
+from .recipe import Document as Document
+from .recipe import RecipeError as RecipeError
+from .recipe import load as load
+from .recipe import parse as parse
