@@ -9,9 +9,8 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/process.h"
 #include "picture/colour.h"
-#include "picture/openimageio.h"
+#include "picture/picture_file.h"
 
 namespace stillwater {
 namespace {
@@ -126,15 +125,9 @@ void write_picture(const std::string& path, const Rgba& image, int bits) {
   check::size("image", image.cols, image.rows);
   const Format& format = format_of(path);
   const OIIO::TypeDesc type = stored_type(format, bits_for(format, bits));
-  give_threads_to_openimageio();
-  const std::string temporary = temporary_name(path);
-  TemporaryFile file(temporary);
-  const auto output = OIIO::ImageOutput::create(format.extension.substr(1));
-  if (!output) fail(path, "cannot be written", OIIO::geterror());
-  if (!output->open(temporary, header(format, image, type))) fail(path, "cannot be written", output->geterror());
-  if (!write_pixels(*output, image, type)) fail(path, "cannot be written", output->geterror());
-  if (!output->close()) fail(path, "cannot be written", output->geterror());
-  file.keep_as(path);
+  PictureFile file(path, format.extension.substr(1), header(format, image, type));
+  file.write([&](OIIO::ImageOutput& output) { return write_pixels(output, image, type); });
+  file.finish();
 }
 
 }  // namespace stillwater
