@@ -33,6 +33,19 @@ py::array_t<float> through(void (*curve)(const float*, float*, std::size_t), con
   return result;
 }
 
+py::array_t<float> pixels_through(void (*curve)(const float*, float*, std::size_t), const FloatArray& array) {
+  const Rgba image = as_image<cv::Vec4f>(array, "rgba");
+  Rgba result(image.size());
+  curve(image[0]->val, result[0]->val, image.total());
+  return as_array(result);
+}
+
+py::array_t<std::uint16_t> halves_of(const FloatArray& array) {
+  py::array_t<std::uint16_t> halves(std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()));
+  to_half(array.data(), halves.mutable_data(), static_cast<std::size_t>(array.size()));
+  return halves;
+}
+
 void write_frame_of_arrays(const std::string& path, const FloatArray& combined, const std::optional<FloatArray>& flow,
                            const std::optional<FloatArray>& matte, const Layers& layers, const FrameOptions& options) {
   FrameImages images;
@@ -48,6 +61,11 @@ void write_frame_of_arrays(const std::string& path, const FloatArray& combined, 
 void bind_picture(py::module_& module) {
   module.def("srgb_to_linear", [](const FloatArray& a) { return through(&srgb_to_linear, a); }, py::arg("a"));
   module.def("linear_to_srgb", [](const FloatArray& a) { return through(&linear_to_srgb, a); }, py::arg("a"));
+
+  module.def("display_to_scene", [](const FloatArray& a) { return pixels_through(&display_to_scene, a); }, py::arg("rgba"));
+  module.def("scene_to_display", [](const FloatArray& a) { return pixels_through(&scene_to_display, a); }, py::arg("rgba"));
+  module.def("round_mantissa", [](const FloatArray& a) { return through(&round_mantissa, a); }, py::arg("a"));
+  module.def("to_half", &halves_of, py::arg("a"), "The bits of half floats, as uint16.");
 
   py::class_<Picture>(module, "Picture", "A picture as read: image (premultiplied), has_alpha, bad_pixels.")
       .def_property_readonly("image", [](const Picture& picture) { return as_array(picture.image); })
