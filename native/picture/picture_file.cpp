@@ -23,39 +23,42 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
 
   const char* proxytype() const override { return "stillwater"; }
 
+  // Buffered bytes may fail wherever they leave the buffer: at a write, a seek, a flush or the end.
   void close() override {
-    if (file_ && std::fclose(file_) != 0 && !failure_) failure_ = errno;
+    if (file_) note(std::fclose(file_) == 0);
     file_ = nullptr;
   }
 
-  bool seek(int64_t offset) override {
-    OIIO::Filesystem::fseek(file_, offset, SEEK_SET);
-    return true;
-  }
+  bool seek(int64_t offset) override { return note(OIIO::Filesystem::fseek(file_, offset, SEEK_SET) == 0); }
   int64_t tell() override { return OIIO::Filesystem::ftell(file_); }
 
   std::size_t read(void* buffer, std::size_t size) override { return std::fread(buffer, 1, size, file_); }
   std::size_t write(const void* buffer, std::size_t size) override {
     const std::size_t written = std::fwrite(buffer, 1, size, file_);
-    if (written < size && !failure_) failure_ = errno;
+    note(written == size);
     return written;
   }
 
   std::size_t size() const override {
     const int64_t here = OIIO::Filesystem::ftell(file_);
-    OIIO::Filesystem::fseek(file_, 0, SEEK_END);
+    note(OIIO::Filesystem::fseek(file_, 0, SEEK_END) == 0);
     const int64_t end = OIIO::Filesystem::ftell(file_);
-    OIIO::Filesystem::fseek(file_, here, SEEK_SET);
+    note(OIIO::Filesystem::fseek(file_, here, SEEK_SET) == 0);
     return static_cast<std::size_t>(end);
   }
-  void flush() const override { std::fflush(file_); }
+  void flush() const override { note(std::fflush(file_) == 0); }
 
   /// 0 where all went well.
   int failure() const { return failure_; }
 
  private:
+  bool note(bool good) const {
+    if (!good && !failure_) failure_ = errno;
+    return good;
+  }
+
   std::FILE* file_;
-  int failure_ = 0;
+  mutable int failure_ = 0;
 };
 
 }  // namespace
