@@ -16,7 +16,7 @@ namespace {
 /// What OpenImageIO writes to. Keeps the system's error number of the first thing that fails.
 class CheckedFile : public OIIO::Filesystem::IOProxy {
  public:
-  explicit CheckedFile(const std::string& path) : IOProxy(path, Write), file_(std::fopen(path.c_str(), "wb+")) {
+  explicit CheckedFile(const std::string& path) : IOProxy(path, Write), file_(std::fopen(path.c_str(), "wb")) {
     if (!file_) failure_ = errno;
   }
   ~CheckedFile() override { close(); }
@@ -32,7 +32,8 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
   bool seek(int64_t offset) override { return note(OIIO::Filesystem::fseek(file_, offset, SEEK_SET) == 0); }
   int64_t tell() override { return OIIO::Filesystem::ftell(file_); }
 
-  std::size_t read(void* buffer, std::size_t size) override { return std::fread(buffer, 1, size, file_); }
+  /// For writing only, as OpenImageIO's own files are.
+  std::size_t read(void*, std::size_t) override { return 0; }
   std::size_t write(const void* buffer, std::size_t size) override {
     const std::size_t written = std::fwrite(buffer, 1, size, file_);
     note(written == size);

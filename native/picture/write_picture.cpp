@@ -55,7 +55,8 @@ OIIO::ImageSpec header(const Format& format, const Rgba& image, OIIO::TypeDesc t
   const bool alpha = exr || (format.name != "JPEG" && any_alpha_below_one(image));
   OIIO::ImageSpec spec(image.cols, image.rows, alpha ? 4 : 3, type);
   if (alpha && !exr) spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+  // Not for TIFF: it would become a directory of its own (EXIF), for which the writer must read the file again.
+  if (format.name != "TIFF") spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
   if (exr) spec.attribute("compression", "zip");
   if (format.name == "TIFF") spec.attribute("compression", "lzw");
   if (format.name == "JPEG") {

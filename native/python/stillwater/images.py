@@ -51,8 +51,9 @@ def bad_pixels_sentence(path: str | os.PathLike[str], count: int) -> str:
     """What an artist is told of pixels that are not finite numbers; empty where there are none."""
     if not count:
         return ""
-    pixels = "1 pixel is" if count == 1 else f"{count} pixels are"
-    return f"{os.fspath(path)}: {pixels} not a finite number and count as 0"
+    if count == 1:
+        return f"{os.fspath(path)}: 1 pixel is not a finite number and counts as 0"
+    return f"{os.fspath(path)}: {count} pixels are not finite numbers and count as 0"
 
 
 def write(path: str | os.PathLike[str], image: ArrayLike, *, bits: int | None = None) -> None:
