@@ -60,12 +60,17 @@ void write_frame_of_arrays(const std::string& path, const FloatArray& combined, 
 }  // namespace
 
 void bind_picture(py::module_& module) {
-  module.def("srgb_to_linear", [](const FloatArray& a) { return through(&srgb_to_linear, a); }, py::arg("a"));
-  module.def("linear_to_srgb", [](const FloatArray& a) { return through(&linear_to_srgb, a); }, py::arg("a"));
+  module.def(
+      "srgb_to_linear", [](const FloatArray& a) { return through(&srgb_to_linear, a); }, py::arg("a"));
+  module.def(
+      "linear_to_srgb", [](const FloatArray& a) { return through(&linear_to_srgb, a); }, py::arg("a"));
 
-  module.def("display_to_scene", [](const FloatArray& a) { return pixels_through(&display_to_scene, a); }, py::arg("rgba"));
-  module.def("scene_to_display", [](const FloatArray& a) { return pixels_through(&scene_to_display, a); }, py::arg("rgba"));
-  module.def("round_mantissa", [](const FloatArray& a) { return through(&round_mantissa, a); }, py::arg("a"));
+  module.def(
+      "display_to_scene", [](const FloatArray& a) { return pixels_through(&display_to_scene, a); }, py::arg("rgba"));
+  module.def(
+      "scene_to_display", [](const FloatArray& a) { return pixels_through(&scene_to_display, a); }, py::arg("rgba"));
+  module.def(
+      "round_mantissa", [](const FloatArray& a) { return through(&round_mantissa, a); }, py::arg("a"));
   module.def("to_half", &halves_of, py::arg("a"), "The bits of half floats, as uint16.");
 
   py::class_<Picture>(module, "Picture", "A picture as read: image (premultiplied), has_alpha, bad_pixels.")
@@ -93,8 +98,7 @@ void bind_picture(py::module_& module) {
       },
       py::arg("path"), py::arg("channel") = "");
   module.def(
-      "read_labels",
-      [](const std::string& path) { return as_array(without_gil([&] { return read_labels(path); })); },
+      "read_labels", [](const std::string& path) { return as_array(without_gil([&] { return read_labels(path); })); },
       py::arg("path"));
   module.def("inspect_picture", &inspect_picture, py::arg("path"), NoGil());
 
@@ -104,9 +108,15 @@ void bind_picture(py::module_& module) {
            }),
            py::kw_only(), py::arg("half") = FrameOptions().half, py::arg("compression") = FrameOptions().compression,
            py::arg("key") = FrameOptions().key);
+<<<<<<< HEAD
   module.def("write_frame", &write_frame_of_arrays, py::arg("path"), py::arg("combined"), py::arg("flow") = std::nullopt,
              py::arg("matte") = std::nullopt, py::arg("layers") = Layers(), py::arg("options") = FrameOptions());
   module.def("read_frame", [](const std::string& path) { return as_array(read_frame(path)); }, py::arg("path"));
+=======
+  module.def("write_frame", &write_frame_of_arrays, py::arg("path"), py::arg("combined"),
+             py::arg("flow") = std::nullopt, py::arg("matte") = std::nullopt, py::arg("layers") = Layers(),
+             py::arg("options") = FrameOptions());
+>>>>>>> picture
   module.def("read_frame_key", &read_frame_key, py::arg("path"), NoGil());
   module.def("layer_names", &layer_names, py::arg("names"));
   module.def(

@@ -70,9 +70,10 @@ std::string host_name() {
 
 /// The process that wrote a temporary file of this machine under this name; 0 for any other name.
 long writer_of(const std::string& name) {
-  const std::string host = "." + host_name() + ".", end = ".tmp.";
+  const std::string host = host_name().insert(0, 1, '.') + '.', end = ".tmp.";
   const auto tail = name.rfind(end);
-  if (name.front() != '.' || tail == std::string::npos || name.find('.', tail + end.size()) != std::string::npos) return 0;
+  if (name.front() != '.' || tail == std::string::npos) return 0;
+  if (name.find('.', tail + end.size()) != std::string::npos) return 0;
   const auto dot = name.rfind('.', tail - 1);
   if (tail == 0 || dot == std::string::npos || dot < host.size() + 1) return 0;
   if (name.compare(dot + 1 - host.size(), host.size(), host) != 0) return 0;
@@ -151,17 +152,18 @@ void TemporaryFile::keep_as(const std::string& path) {
 
 std::string temporary_name(const std::string& path) {
   const std::filesystem::path file(path);
-  const std::string name = "." + file.stem().string() + "." + host_name() + "." + std::to_string(own_id()) + ".tmp";
-  return (file.parent_path() / (name + file.extension().string())).string();
+  std::string name = file.stem().string().insert(0, 1, '.');
+  name.append(1, '.').append(host_name()).append(1, '.').append(std::to_string(own_id())).append(".tmp");
+  return (file.parent_path() / name.append(file.extension().string())).string();
 }
 
 std::vector<std::string> sweep_temporaries(const std::string& folder) {
   std::vector<std::string> swept;
   std::error_code failure;
-  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
-    if (!is_left_over(entry->path())) continue;
-    if (std::filesystem::remove(entry->path(), failure)) swept.push_back(entry->path().string());
-  }
+  std::filesystem::directory_iterator entry(folder, failure);
+  for (; !failure && entry != std::filesystem::directory_iterator(); entry.increment(failure))
+    if (is_left_over(entry->path()) && std::filesystem::remove(entry->path(), failure))
+      swept.push_back(entry->path().string());
   if (failure && failure != std::errc::no_such_file_or_directory)
     throw FileError(folder + ": cannot be swept (" + failure.message() + ")");
   std::sort(swept.begin(), swept.end());

@@ -29,9 +29,9 @@ class Clip {
   int width() const;
   int height() const;
 
-  /// Frame `number` (1 .. frames()), display-referred red, green, blue, at a wanted size: averaged over areas where that
-  /// is smaller, bilinear where it is larger. Throws BadInput for another number or size, FileError where it can't be
-  /// decoded.
+  /// Frame `number` (1 .. frames()), display-referred red, green, blue, at a wanted size: averaged over areas where
+  /// that is smaller, bilinear where it is larger. Throws BadInput for another number or size, FileError where it can't
+  /// be decoded.
   cv::Mat_<cv::Vec3f> frame(int number, int width, int height);
 
  private:

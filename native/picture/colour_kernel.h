@@ -87,26 +87,25 @@ static inline float straight_colour(float colour, float alpha) {
   return straight > largest_float ? largest_float : (straight < -largest_float ? -largest_float : straight);
 }
 
-#define STILLWATER_PIXELS_KERNEL(name, curve)                                                   \
-  static void name(const float* rgba_in, float* rgba_out, size_t pixels) {                      \
-    float colour[3 * block], alpha[3 * block];                                                  \
-    for (size_t done = 0; done < pixels; done += block) {                                       \
-      const size_t n = pixels - done < block ? pixels - done : (size_t)block;                    \
-      const float* in = rgba_in + 4 * done;                                                     \
-      float* out = rgba_out + 4 * done;                                                         \
-      for (size_t i = 0; i < n; ++i) {                                                          \
-        const float a = in[4 * i + 3];                                                          \
-        for (int c = 0; c < 3; ++c) colour[3 * i + c] = in[4 * i + c];                          \
-        for (int c = 0; c < 3; ++c) alpha[3 * i + c] = a > 0 ? a : 1.0f;                        \
-      }                                                                                         \
-      for (size_t i = 0; i < 3 * n; ++i)                                                        \
-        colour[i] = curve(straight_colour(colour[i], alpha[i])) * alpha[i];                     \
-      for (size_t i = 0; i < n; ++i) {                                                          \
-        const float a = in[4 * i + 3];                                                          \
-        for (int c = 0; c < 3; ++c) out[4 * i + c] = colour[3 * i + c];                         \
-        out[4 * i + 3] = a;                                                                     \
-      }                                                                                         \
-    }                                                                                           \
+#define STILLWATER_PIXELS_KERNEL(name, curve)                                                                \
+  static void name(const float* rgba_in, float* rgba_out, size_t pixels) {                                   \
+    float colour[3 * block], alpha[3 * block];                                                               \
+    for (size_t done = 0; done < pixels; done += block) {                                                    \
+      const size_t n = pixels - done < block ? pixels - done : (size_t)block;                                \
+      const float* in = rgba_in + 4 * done;                                                                  \
+      float* out = rgba_out + 4 * done;                                                                      \
+      for (size_t i = 0; i < n; ++i) {                                                                       \
+        const float a = in[4 * i + 3];                                                                       \
+        for (int c = 0; c < 3; ++c) colour[3 * i + c] = in[4 * i + c];                                       \
+        for (int c = 0; c < 3; ++c) alpha[3 * i + c] = a > 0 ? a : 1.0f;                                     \
+      }                                                                                                      \
+      for (size_t i = 0; i < 3 * n; ++i) colour[i] = curve(straight_colour(colour[i], alpha[i])) * alpha[i]; \
+      for (size_t i = 0; i < n; ++i) {                                                                       \
+        const float a = in[4 * i + 3];                                                                       \
+        for (int c = 0; c < 3; ++c) out[4 * i + c] = colour[3 * i + c];                                      \
+        out[4 * i + 3] = a;                                                                                  \
+      }                                                                                                      \
+    }                                                                                                        \
   }
 
 STILLWATER_PIXELS_KERNEL(display_to_scene_kernel, linear_of_srgb)

@@ -40,7 +40,7 @@ std::vector<std::string> layer_names(const std::vector<std::string>& names) {
     const std::string whole = escaped(name);
     std::string candidate = cut(whole, longest_name);
     for (int copy = 2; std::find(given.begin(), given.end(), candidate) != given.end(); ++copy) {
-      const std::string tail = "~" + std::to_string(copy);
+      const std::string tail = std::to_string(copy).insert(0, 1, '~');
       candidate = cut(whole, longest_name - tail.size()) + tail;
     }
     given.push_back(candidate);

@@ -12,11 +12,11 @@ namespace stillwater {
 struct OpenPicture {
   std::string path;
   std::unique_ptr<OIIO::ImageInput> input;
-  OIIO::ImageSpec spec;      ///< of the part that holds the colours
-  int part = 0;              ///< its number (OpenEXR files may have several)
-  cv::Size size;             ///< of the picture, before it is turned upright
-  cv::Point data;            ///< where the file's rectangle of data begins in the picture
-  int orientation = 1;       ///< EXIF, 1 .. 8
+  OIIO::ImageSpec spec;  ///< of the part that holds the colours
+  int part = 0;          ///< its number (OpenEXR files may have several)
+  cv::Size size;         ///< of the picture, before it is turned upright
+  cv::Point data;        ///< where the file's rectangle of data begins in the picture
+  int orientation = 1;   ///< EXIF, 1 .. 8
 
   bool is(const char* format) const;
   bool covers_picture() const;  ///< the data fill all of `size`

@@ -136,8 +136,8 @@ Labels stored_labels(OpenPicture& file) {
 
 FileFacts inspect_picture(const std::string& path) {
   const OpenPicture file = open_picture(path);
-  FileFacts facts{file.size.width,       file.size.height,          file.spec.nchannels, file.spec.format.c_str(),
-                  file.input->format_name(), file.spec.channelnames};
+  FileFacts facts{file.size.width,          file.size.height,          file.spec.nchannels,
+                  file.spec.format.c_str(), file.input->format_name(), file.spec.channelnames};
   if (file.orientation >= 5) std::swap(facts.width, facts.height);
   return facts;
 }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::array compressions{"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
 constexpr std::array<float, 8> rec709{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+constexpr const char* zip_level = ":2";  // OpenImageIO's usual 4 takes a fifth more time, saves a tenth of the size
 constexpr std::size_t most_bytes = 64 << 20;  // held at a time in the file's formats
 constexpr int rows_together = 256;            // a multiple of every compression's block of rows
 
@@ -28,6 +29,8 @@ void require_valid(const FrameImages& images, const FrameOptions& options) {
     throw BadInput("compression: " + options.compression +
                    " is not none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab");
 }
+
+bool is_zip(const std::string& compression) { return compression == "zip" || compression == "zips"; }
 
 OIIO::ImageSpec header(const FrameImages& images, const FrameOptions& options) {
   const OIIO::TypeDesc colour = options.half ? OIIO::TypeHalf : OIIO::TypeFloat;
@@ -45,7 +48,7 @@ OIIO::ImageSpec header(const FrameImages& images, const FrameOptions& options) {
   for (const NamedImage& layer : images.layers) names.push_back(layer.name);
   for (const std::string& name : layer_names(names)) add(name, "RGBA", colour);
   spec.nchannels = static_cast<int>(spec.channelnames.size());
-  spec.attribute("compression", options.compression);
+  spec.attribute("compression", options.compression + (is_zip(options.compression) ? zip_level : ""));
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709.data());
   spec.attribute("DateTime", "");  // else the time of writing, and no two frames would be the same bytes
   if (!options.key.empty()) spec.attribute("stillwater:key", options.key);

@@ -8,9 +8,9 @@
 /// A finished frame to one OpenEXR file, scene-linear Rec.709, premultiplied:
 ///
 ///     Stillwater.Combined.R/G/B/A   half or float
-///     Stillwater.Flow.X/Y/Z         float, mantissa rounded to 12 bits; Z = 0, because Blender 5.2 misreads two channels
-///     Stillwater.Matte.V            half or float
-///     NAME.R/G/B/A                  half or float, each layer that is given
+///     Stillwater.Flow.X/Y/Z         float, mantissa rounded to 12 bits; Z = 0, because Blender 5.2 misreads two
+///     channels Stillwater.Matte.V            half or float NAME.R/G/B/A                  half or float, each layer
+///     that is given
 ///
 /// The bytes depend on the arguments alone, not on the number of threads. A value beyond a half's largest (65504) is
 /// written as that.

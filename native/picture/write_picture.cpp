@@ -22,8 +22,8 @@ struct Format {
 
 const Format& format_of(const std::string& path) {
   static const std::vector<Format> formats{
-      {".png", "PNG", {8, 16}},       {".jpg", "JPEG", {8}},           {".jpeg", "JPEG", {8}},
-      {".tif", "TIFF", {8, 16, 32}},  {".tiff", "TIFF", {8, 16, 32}},  {".exr", "OpenEXR", {16, 32}},
+      {".png", "PNG", {8, 16}},      {".jpg", "JPEG", {8}},          {".jpeg", "JPEG", {8}},
+      {".tif", "TIFF", {8, 16, 32}}, {".tiff", "TIFF", {8, 16, 32}}, {".exr", "OpenEXR", {16, 32}},
   };
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -16,15 +16,17 @@ int main(int, char** argv) {
   std::fclose(file);
 
   OIIO::ImageSpec spec(width, height, 8, OIIO::TypeHalf);
-  spec.channelnames = {"Stillwater.Combined.R", "Stillwater.Combined.G", "Stillwater.Combined.B", "Stillwater.Combined.A",
-                       "Stillwater.Flow.X",     "Stillwater.Flow.Y",     "Stillwater.Flow.Z",     "Stillwater.Matte.V"};
+  spec.channelnames = {"Stillwater.Combined.R", "Stillwater.Combined.G", "Stillwater.Combined.B",
+                       "Stillwater.Combined.A", "Stillwater.Flow.X",     "Stillwater.Flow.Y",
+                       "Stillwater.Flow.Z",     "Stillwater.Matte.V"};
   const OIIO::TypeDesc half = OIIO::TypeHalf, whole = OIIO::TypeFloat;
   spec.channelformats = {half, half, half, half, whole, whole, whole, half};
   spec.attribute("compression", "zip");
   for (int c = std::getchar(); c != EOF; c = std::getchar()) {
     const auto start = std::chrono::steady_clock::now();
     const auto output = OIIO::ImageOutput::create("exr");
-    if (!output->open(argv[4], spec) || !output->write_image(OIIO::TypeFloat, pixels.data()) || !output->close()) return 1;
+    if (!output->open(argv[4], spec) || !output->write_image(OIIO::TypeFloat, pixels.data()) || !output->close())
+      return 1;
     std::printf("%f\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     std::fflush(stdout);
   }

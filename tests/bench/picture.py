@@ -1,9 +1,9 @@
 """Writing frames, against OpenImageIO that is simply given float arrays of the same channels.
 
-OpenImageIO gets scene-linear floats and makes the same half and float channels of them, compressed the same way. Ours
-starts from what the engine has: display-referred premultiplied colours, so the curve is in our time. The one thing we
-leave out of the file is mantissa of the flow beyond 12 bits, which is most of the difference: a second row shows
-OpenImageIO with the flow rounded already.
+OpenImageIO gets scene-linear floats and makes the same half and float channels of them, with its usual zip. Ours starts
+from what the engine has, display-referred premultiplied colours, so the curve is in our time. What makes the difference
+is the flow's mantissa, of which we keep 12 bits, and zip's level, 2 instead of 4; the note has both files' sizes. A
+second row shows OpenImageIO with the flow rounded already.
 """
 
 from __future__ import annotations
@@ -50,9 +50,14 @@ def moving(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
 
 def built(folder: Path) -> Path:
     """The reference program."""
-    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "OpenImageIO"], capture_output=True, text=True, check=True)
+    flags = subprocess.run(
+        ["pkg-config", "--cflags", "--libs", "OpenImageIO"], capture_output=True, text=True, check=True
+    )
     source = Path(__file__).with_name("openimageio_frame.cpp")
-    subprocess.run(["g++", "-O2", "-std=c++17", str(source), "-o", str(folder / "reference"), *shlex.split(flags.stdout)], check=True)
+    subprocess.run(
+        ["g++", "-O2", "-std=c++17", str(source), "-o", str(folder / "reference"), *shlex.split(flags.stdout)],
+        check=True,
+    )
     return folder / "reference"
 
 
@@ -85,7 +90,9 @@ def rows() -> Iterator[Row]:
             channels.astype(np.float32).tofile(folder / f"{i}.raw")
             command = [program, str(WIDTH), str(HEIGHT), folder / f"{i}.raw", folder / f"{i}.exr"]
             references.append(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True))
-        ours, plain, rounded = interleaved(lambda: engine.write_frame(str(folder / "ours.exr"), combined, flow, matte), references)
+        ours, plain, rounded = interleaved(
+            lambda: engine.write_frame(str(folder / "ours.exr"), combined, flow, matte), references
+        )
         for reference in references:
             reference.stdin.close()
             reference.wait(30)

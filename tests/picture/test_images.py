@@ -22,7 +22,9 @@ def test_colours_are_straight(tmp_path):
     np.testing.assert_allclose(image, expected, atol=1e-6)
 
 
-@pytest.mark.parametrize(("name", "bits", "step"), [("p.png", None, 255), ("p.png", 16, 65535), ("p.tif", 8, 255), ("p.tif", 16, 65535)])
+@pytest.mark.parametrize(
+    ("name", "bits", "step"), [("p.png", None, 255), ("p.png", 16, 65535), ("p.tif", 8, 255), ("p.tif", 16, 65535)]
+)
 @pytest.mark.parametrize("channels", [3, 4])
 def test_what_is_written_comes_back(tmp_path, name, bits, step, channels):
     stored = RNG.integers(0, step + 1, (9, 13, channels))

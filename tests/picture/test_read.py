@@ -140,7 +140,9 @@ def test_a_linear_png_goes_through_the_curve(tmp_path):
 
 def test_of_named_layers_the_one_without_a_name_else_the_first(tmp_path):
     planes = RNG.random((7, 4, 5)).astype(np.float32)
-    layers = {f"Near.{c}": planes[i] for i, c in enumerate("RGB")} | {f"Far.{c}": planes[i + 3] for i, c in enumerate("RGB")}
+    layers = {f"Near.{c}": planes[i] for i, c in enumerate("RGB")} | {
+        f"Far.{c}": planes[i + 3] for i, c in enumerate("RGB")
+    }
     write_float_exr(tmp_path / "named.exr", layers)
     image = engine.read_picture(str(tmp_path / "named.exr")).image
     np.testing.assert_allclose(image[..., 0], exact_srgb(layers["Far.R"]), rtol=2e-6)
@@ -164,7 +166,18 @@ def test_what_is_not_a_number_is_black_and_counted(tmp_path):
 
 @needs_oiiotool
 def test_an_exr_is_its_display_window(tmp_path):
-    oiiotool("--pattern", "constant:color=1,1,1", "6x4", 3, "--origin", "+3+2", "--fullsize", "12x10+1+1", "-o", tmp_path / "p.exr")
+    oiiotool(
+        "--pattern",
+        "constant:color=1,1,1",
+        "6x4",
+        3,
+        "--origin",
+        "+3+2",
+        "--fullsize",
+        "12x10+1+1",
+        "-o",
+        tmp_path / "p.exr",
+    )
     picture = engine.read_picture(str(tmp_path / "p.exr"))
     assert picture.image.shape == (10, 12, 4)
     assert picture.has_alpha
@@ -175,15 +188,30 @@ def test_an_exr_is_its_display_window(tmp_path):
 
 @needs_oiiotool
 def test_the_part_that_holds_the_colours(tmp_path):
-    oiiotool("--pattern", "constant:color=9", "6x4", 1, "--chnames", "Depth.Z", "--pattern", "constant:color=1,0,0", "6x4", 3,
-             "--siappend", "-o", tmp_path / "p.exr")  # fmt: skip
+    oiiotool(
+        "--pattern",
+        "constant:color=9",
+        "6x4",
+        1,
+        "--chnames",
+        "Depth.Z",
+        "--pattern",
+        "constant:color=1,0,0",
+        "6x4",
+        3,
+        "--siappend",
+        "-o",
+        tmp_path / "p.exr",
+    )
     np.testing.assert_allclose(engine.read_picture(str(tmp_path / "p.exr")).image[0, 0], [1, 0, 0, 1], atol=1e-6)
 
 
 @needs_oiiotool
 def test_a_radiance_picture_is_linear(tmp_path):
     oiiotool("--pattern", "constant:color=4,0.25,0.5", "16x16", 3, "-o", tmp_path / "p.hdr")
-    np.testing.assert_allclose(engine.read_picture(str(tmp_path / "p.hdr")).image[5, 5, :3], exact_srgb([4, 0.25, 0.5]), rtol=0.01)
+    np.testing.assert_allclose(
+        engine.read_picture(str(tmp_path / "p.hdr")).image[5, 5, :3], exact_srgb([4, 0.25, 0.5]), rtol=0.01
+    )
 
 
 def test_a_photoshop_file_is_its_merged_picture(tmp_path):
@@ -231,7 +259,9 @@ def test_no_file_to_read(tmp_path, read):
 
 
 @pytest.mark.parametrize("share", [0.5, 0.9, 0.99])
-@pytest.mark.parametrize("name", ["p.png", "p.jpg", "progressive.jpg", "p.tif", "lzw.tif", "p.bmp", "p.tga", "p.webp", "p.gif"])
+@pytest.mark.parametrize(
+    "name", ["p.png", "p.jpg", "progressive.jpg", "p.tif", "lzw.tif", "p.bmp", "p.tga", "p.webp", "p.gif"]
+)
 def test_a_file_that_was_cut_short(tmp_path, name, share):
     options = {"progressive.jpg": {"progressive": True}, "lzw.tif": {"compression": "tiff_lzw"}}.get(name, {})
     noise = RNG.integers(0, 256, (64, 80, 3), np.uint8)
@@ -267,14 +297,17 @@ def png_of_size(path, width, height):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"")) + chunk(b"IEND", b""))
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"")) + chunk(b"IEND", b"")
+    )
 
 
 def test_a_picture_that_is_too_large_is_refused_by_its_header(tmp_path):
     png_of_size(tmp_path / "p.png", 30000, 30000)
     assert sentence_of(tmp_path / "p.png") == (
-        engine.BadInput, "30000 x 30000 is not between 1 and 16384 pixels a side"
-    )  # fmt: skip
+        engine.BadInput,
+        "30000 x 30000 is not between 1 and 16384 pixels a side",
+    )
     png_of_size(tmp_path / "p.png", 16385, 1)
     assert sentence_of(tmp_path / "p.png")[0] is engine.BadInput
 
@@ -348,9 +381,11 @@ def test_labels_saved_as_grey_colours(tmp_path):
 def test_what_is_no_label_map(tmp_path):
     Image.fromarray(COLOURS[..., :3]).save(tmp_path / "p.png")
     assert sentence_of(tmp_path / "p.png", engine.read_labels) == (
-        engine.BadInput, "a coloured picture is not a label map (one channel of whole numbers)"
-    )  # fmt: skip
+        engine.BadInput,
+        "a coloured picture is not a label map (one channel of whole numbers)",
+    )
     write_float_exr(tmp_path / "p.exr", {"Y": np.array([[1, 2.5]], np.float32)})
     assert sentence_of(tmp_path / "p.exr", engine.read_labels) == (
-        engine.BadInput, "2.5 is not a label (a whole number from 0 to 2147483647)"
-    )  # fmt: skip
+        engine.BadInput,
+        "2.5 is not a label (a whole number from 0 to 2147483647)",
+    )

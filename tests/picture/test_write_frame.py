@@ -33,7 +33,9 @@ def write(path, **given):
 
 def described(path):
     """What oiiotool says of a file, and {channel: format}."""
-    info = subprocess.run(["oiiotool", "--info", "-v", str(path)], capture_output=True, text=True, timeout=60, check=True)
+    info = subprocess.run(
+        ["oiiotool", "--info", "-v", str(path)], capture_output=True, text=True, timeout=60, check=True
+    )
     of_all = re.search(r"channel, (?:\w+/)*(\w+) openexr", info.stdout)[1]
     names = re.search(r"channel list: (.*)", info.stdout)[1].split(", ")
     parts = [re.fullmatch(r"(\S+)(?: \((\w+)\))?", name) for name in names]
@@ -84,7 +86,9 @@ def test_values_in_a_half_file(tmp_path):
     planes = planes_of(path, list(expected_formats("half")))
     for layer, image in (("Stillwater.Combined", IMAGE), ("tree", LAYER)):
         for c, name in enumerate("RGBA"):
-            np.testing.assert_allclose(planes[f"{layer}.{name}"], linear(image)[..., c], rtol=2**-11 + 1e-5, atol=2**-24)
+            np.testing.assert_allclose(
+                planes[f"{layer}.{name}"], linear(image)[..., c], rtol=2**-11 + 1e-5, atol=2**-24
+            )
     for c, name in enumerate("XY"):
         flow = planes[f"Stillwater.Flow.{name}"]
         np.testing.assert_allclose(flow, FLOW[..., c], rtol=2**-13)
@@ -144,14 +148,17 @@ def test_rows_that_are_packed_in_several_goes(tmp_path):
     ramp = np.zeros((2000, 300, 4), np.float32)
     ramp[..., 0] = np.linspace(0, 1, 2000)[:, None]
     ramp[..., 3] = 1
-    engine.write_frame(str(tmp_path / "f.exr"), ramp, layers=[(f"l{i}", ramp) for i in range(30)], options=options(compression="none"))
+    engine.write_frame(
+        str(tmp_path / "f.exr"), ramp, layers=[(f"l{i}", ramp) for i in range(30)], options=options(compression="none")
+    )
     np.testing.assert_allclose(engine.read_picture(str(tmp_path / "f.exr")).image, ramp, atol=1e-3)
 
 
 def test_the_sse_way_writes_the_same_file(tmp_path):
     program = (
         "import sys, numpy as np\nfrom stillwater import _stillwater as e\nr = np.random.default_rng(5)\n"
-        "i = r.random((90, 70, 4)).astype('f4')\ne.write_frame(sys.argv[1], i, r.random((90, 70, 2)).astype('f4'), i[..., 0])"
+        "i, flow = r.random((90, 70, 4)).astype('f4'), r.random((90, 70, 2)).astype('f4')\n"
+        "e.write_frame(sys.argv[1], i, flow, i[..., 0])"
     )
     for wish in ("avx2", "sse4.2"):
         environment = {**os.environ, "STILLWATER_CPU": wish}
@@ -182,7 +189,9 @@ def test_names_of_layers_stay_apart_in_the_file(tmp_path):
     engine.write_frame(str(tmp_path / "f.exr"), IMAGE, layers=[("a.b", LAYER), ("x" * 70, IMAGE), ("x" * 71, LAYER)])
     np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "a%2Eb.A"), LAYER[..., 3], rtol=2**-10)
     np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "x" * 63 + ".A"), IMAGE[..., 3], rtol=2**-10)
-    np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "x" * 61 + "~2.A"), LAYER[..., 3], rtol=2**-10)
+    np.testing.assert_allclose(
+        engine.read_matte(str(tmp_path / "f.exr"), "x" * 61 + "~2.A"), LAYER[..., 3], rtol=2**-10
+    )
 
 
 def test_what_is_no_frame(tmp_path):
