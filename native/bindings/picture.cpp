@@ -108,15 +108,10 @@ void bind_picture(py::module_& module) {
            }),
            py::kw_only(), py::arg("half") = FrameOptions().half, py::arg("compression") = FrameOptions().compression,
            py::arg("key") = FrameOptions().key);
-<<<<<<< HEAD
-  module.def("write_frame", &write_frame_of_arrays, py::arg("path"), py::arg("combined"), py::arg("flow") = std::nullopt,
-             py::arg("matte") = std::nullopt, py::arg("layers") = Layers(), py::arg("options") = FrameOptions());
-  module.def("read_frame", [](const std::string& path) { return as_array(read_frame(path)); }, py::arg("path"));
-=======
   module.def("write_frame", &write_frame_of_arrays, py::arg("path"), py::arg("combined"),
              py::arg("flow") = std::nullopt, py::arg("matte") = std::nullopt, py::arg("layers") = Layers(),
              py::arg("options") = FrameOptions());
->>>>>>> picture
+  module.def("read_frame", [](const std::string& path) { return as_array(read_frame(path)); }, py::arg("path"));
   module.def("read_frame_key", &read_frame_key, py::arg("path"), NoGil());
   module.def("layer_names", &layer_names, py::arg("names"));
   module.def(
