@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import math
+import shutil
 import time
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
@@ -99,7 +100,10 @@ class Job:
                 options=engine.FrameOptions(half=output.depth == "half", compression=output.compression, key=key),
             )
         except engine.FileError as error:
-            raise Failed(str(error)) from None
+            left = shutil.disk_usage(self.folder).free
+            full = left < made.combined.nbytes
+            why = f"{self.path(frame)}: cannot be written: the disk is full ({left} bytes left)" if full else str(error)
+            raise Failed(why) from None
 
     def _own_layers(self, made) -> list[tuple[str, np.ndarray]]:
         """The layers that are not hidden, each alone; one that covers nothing is None in the engine's answer."""
