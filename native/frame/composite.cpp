@@ -60,10 +60,14 @@ class TileComposer {
  private:
   void lay_under(int index, const Run& run, RowState& row) {
     const ComposedLayer& layer = layers_[index];
-    layer.motion->draw(run, row.needed, drawn_.data());
-    row.open = stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, run.count,
-                                    result_.combined[run.y][run.x].val, row.through, row.moving, row.most, row.owner,
-                                    row.needed);
+    int first = 0, last = run.count - 1;
+    while (!row.needed[first]) ++first;
+    while (!row.needed[last]) --last;
+    const Run open{run.x + first, run.y, last - first + 1};
+    if (!layer.motion->draw(open, row.needed + first, drawn_.data())) return;
+    row.open = stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, open.count,
+                                    result_.combined[open.y][open.x].val, row.through + first, row.moving + first,
+                                    row.most + first, row.owner + first, row.needed + first);
   }
 
   // Owners change rarely along a row: each stretch of one owner is one call.

@@ -33,10 +33,10 @@ struct SampledRun {
   }
 };
 
-void sample(const Plate& plate, const SharedDisplacement& displacement, const Run& run, const unsigned char* needed,
+bool sample(const Plate& plate, const SharedDisplacement& displacement, const Run& run, const unsigned char* needed,
             cv::Vec4f* out) {
   SampledRun at(plate, rests(displacement) ? nullptr : displacement.get(), run);
-  plate.source.sample(at.x, at.y, needed, run.count, out);
+  return plate.source.sample(at.x, at.y, needed, run.count, out);
 }
 
 // The flow is the same for one copy and for two.
@@ -85,8 +85,8 @@ class DisplacedLayer final : public TravellingLayer {
     return !plate_.source.is_clear(cv::Rect(left, top, right - left, bottom - top));
   }
 
-  void draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
-    sample(plate_, now_, run, needed, out);
+  bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
+    return sample(plate_, now_, run, needed, out);
   }
 
  private:
@@ -102,12 +102,12 @@ class CrossFadedLayer final : public TravellingLayer {
 
   bool may_cover(const cv::Rect&) const override { return true; }
 
-  void draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
+  bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
     cv::Vec4f second[Run::longest], first_mean[Run::longest], second_mean[Run::longest];
-    sample(plate_, copies_.first, run, needed, out);
-    sample(plate_, copies_.second, run, needed, second);
-    sample(mean_, copies_.first, run, needed, first_mean);
-    sample(mean_, copies_.second, run, needed, second_mean);
+    sample_or_clear(plate_, copies_.first, run, needed, out);
+    sample_or_clear(plate_, copies_.second, run, needed, second);
+    sample_or_clear(mean_, copies_.first, run, needed, first_mean);
+    sample_or_clear(mean_, copies_.second, run, needed, second_mean);
     const auto other = static_cast<float>(copies_.second_share);
     const float one = 1 - other, kept = 1 / std::sqrt(one * one + other * other);
     for (int i = 0; i < run.count; ++i) {
@@ -117,9 +117,15 @@ class CrossFadedLayer final : public TravellingLayer {
       const cv::Vec4f lively = mean + kept * (plain - mean);
       out[i] = {lively[0], lively[1], lively[2], plain[3]};
     }
+    return true;
   }
 
  private:
+  static void sample_or_clear(const Plate& plate, const SharedDisplacement& displacement, const Run& run,
+                              const unsigned char* needed, cv::Vec4f* out) {
+    if (!sample(plate, displacement, run, needed, out)) std::fill_n(out, run.count, cv::Vec4f());
+  }
+
   const Plate& mean_;
   Placement copies_;
 };

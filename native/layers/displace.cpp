@@ -27,7 +27,7 @@ void each_run(const Source& image, const Field& map, const Work& work) {
           x[i] = static_cast<float>(begin + i) + moved[i][0];
           y[i] = static_cast<float>(row) + moved[i][1];
         }
-        image.sample(x.data(), y.data(), needed.data(), count, colours.data());
+        if (!image.sample(x.data(), y.data(), needed.data(), count, colours.data())) colours.fill(cv::Vec4f());
         work(row, begin, colours.data(), count);
       }
   });

@@ -23,7 +23,8 @@ class LayerMotion {
   virtual bool may_cover(const cv::Rect& tile) const = 0;
 
   /// Premultiplied colour and coverage of a run. Where `needed` is 0 the result is not read, and need not be made.
-  virtual void draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const = 0;
+  /// Answers false where the whole run is transparent (`out` is then not filled).
+  virtual bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const = 0;
 
   /// Where the points seen at these places are one frame later, minus here, output pixels. `x`, `y` hold places in
   /// output pixels (centres at + 0.5) and are replaced by the flow.

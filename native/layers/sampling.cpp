@@ -44,6 +44,19 @@ void wrap(float* at, int count, int size) {
   hold(at, count, size);
 }
 
+struct Range {
+  float low, high;
+};
+
+Range range(const float* at, int count) {
+  Range found{at[0], at[0]};
+  for (int i = 1; i < count; ++i) {
+    found.low = at[i] < found.low ? at[i] : found.low;
+    found.high = at[i] > found.high ? at[i] : found.high;
+  }
+  return found;
+}
+
 }  // namespace
 
 Source::Source(const Rgba& image, Beyond beyond) : beyond_(beyond), width_(image.cols), height_(image.rows) {
@@ -66,6 +79,11 @@ void Source::map_coverage() {
 bool Source::is_clear(const cv::Rect& area) const {
   if (empty()) return true;
   if (beyond_.wraps_x || beyond_.wraps_y) return false;
+  return is_clear_inside(area);
+}
+
+// For areas that do not reach over a side that wraps.
+bool Source::is_clear_inside(const cv::Rect& area) const {
   const auto held = [](int at, int size) { return std::clamp(at + frame, 0, size - 1) / block; };
   const int left = held(area.x - 2, padded_.cols), right = held(area.x + area.width + 2, padded_.cols) + 1;
   const int top = held(area.y - 2, padded_.rows), bottom = held(area.y + area.height + 2, padded_.rows) + 1;
@@ -73,14 +91,25 @@ bool Source::is_clear(const cv::Rect& area) const {
   return sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left) == 0;
 }
 
-void Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {
+// For places within [-1, size].
+bool Source::is_clear(const float* x, const float* y, int count) const {
+  const Range across = range(x, count), down = range(y, count);
+  const cv::Point first(static_cast<int>(across.low) - 1, static_cast<int>(down.low) - 1);
+  const cv::Point last(static_cast<int>(across.high) + 1, static_cast<int>(down.high) + 1);
+  return is_clear_inside(cv::Rect(first, last));
+}
+
+bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {
+  if (empty()) return false;
   beyond_.wraps_x ? wrap(x, count, width_) : hold(x, count, width_);
   beyond_.wraps_y ? wrap(y, count, height_) : hold(y, count, height_);
+  if (is_clear(x, y, count)) return false;
   static const auto kernel = has_avx2() ? stillwater_sample_avx2 : sample_plain;
   const float* origin = at(0, 0)->val;
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(padded_.step1());
   for (int i = 0; i < count; i += sampling_run)
     kernel(origin, stride, x + i, y + i, needed + i, std::min(sampling_run, count - i), out[i].val);
+  return true;
 }
 
 }  // namespace stillwater

@@ -26,18 +26,20 @@ class Source {
   bool is_clear(const cv::Rect& area) const;
 
   /// Colour at `count` places in index coordinates (0 = centre of the first pixel). Places whose `needed` byte is 0
-  /// are left alone. Coverage comes out within 0 .. 1, and colour with it, so that the straight colour is kept.
+  /// are left alone. Answers false, with nothing filled in, where there is no coverage around any of them. Coverage comes out within 0 .. 1, and colour with it, so that the straight colour is kept.
   /// `x` and `y` are used up.
-  void sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
+  bool sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
 
   /// Pixel (x, y), inside the image: what sample() gives there.
   const cv::Vec4f* at(int x, int y) const { return &padded_(y + frame, x + frame); }
 
  private:
   static constexpr int frame = 4;
-  static constexpr int block = 16;
+  static constexpr int block = 8;
 
   void map_coverage();
+  bool is_clear(const float* x, const float* y, int count) const;
+  bool is_clear_inside(const cv::Rect& area) const;
 
   Rgba padded_;
   Beyond beyond_;
