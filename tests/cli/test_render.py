@@ -180,7 +180,7 @@ def test_killed_at_any_moment_it_goes_on_where_it_stopped(start, command, scene,
     done = command("render", path, "--progress", "json")
     assert done.returncode == 0, done.stderr
     lines = [json.loads(line) for line in done.stdout.splitlines()]
-    assert {f"frame_{line['frame']:04d}.exr" for line in lines if line.get("kept")} == set(before)
+    assert {f"frame_{line['frame']:04d}.exr" for line in lines if line["event"] == "frame" and "kept" in line} == set(before)
     assert leavings(tmp_path / "frames") == []
     assert command("render", path, "--output", tmp_path / "whole").returncode == 0
     assert frames_in(tmp_path / "frames") == frames_in(tmp_path / "whole")

@@ -122,17 +122,24 @@ def pictures(tmp_path_factory):
     return folder
 
 
+class Written(list):
+    """The arrays of all frames; shown as a number where a test fails."""
+
+    def __repr__(self):
+        return f"{len(self)} frames"
+
+
 @pytest.fixture(scope="module")
 def written():
     """What is handed over to be written: (path, combined, flow, matte), before half floats hide anything."""
-    arrays, write = [], engine.write_frame
+    written, write = Written(), engine.write_frame
 
     def watch(path, combined, flow, matte, **how):
-        arrays.append((combined, flow, matte, *(image for _, image in how["layers"])))
+        written.append((combined, flow, matte, *(image for _, image in how["layers"])))
         write(path, combined, flow, matte, **how)
 
     engine.write_frame = watch
-    yield arrays
+    yield written
     engine.write_frame = write
 
 
@@ -151,6 +158,8 @@ def test_a_random_recipe_is_rendered_or_refused(pictures, written, recipe):
             return
         assert len(list((folder / "frames").iterdir())) == len(written) == 3
     for combined, flow, matte, *others in written:
-        assert all(np.isfinite(array).all() for array in (combined, flow, matte, *others))
+        finite = [bool(np.isfinite(array).all()) for array in (combined, flow, matte, *others)]
+        assert all(finite), finite
+        ranges = [(float(array.min()), float(array.max())) for array in (combined[..., 3], matte)]
         # 1e-6: what sixteen rounded weights of an opaque pixel may add up to beyond 1.
-        assert all(array.min() >= 0 and array.max() <= 1 + 1e-6 for array in (combined[..., 3], matte))
+        assert all(low >= 0 and high <= 1 + 1e-6 for low, high in ranges), ranges
