@@ -74,7 +74,7 @@ long writer_of(const std::string& name) {
   const auto tail = name.rfind(end);
   if (name.front() != '.' || tail == std::string::npos || name.find('.', tail + end.size()) != std::string::npos) return 0;
   const auto dot = name.rfind('.', tail - 1);
-  if (tail == 0 || dot == std::string::npos || dot + 1 < host.size()) return 0;
+  if (tail == 0 || dot == std::string::npos || dot < host.size() + 1) return 0;
   if (name.compare(dot + 1 - host.size(), host.size(), host) != 0) return 0;
   long id = 0;
   const char* last = name.data() + tail;

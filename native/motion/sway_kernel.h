@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/// The turn of sway.h in plain loops that the compiler makes into vectors; compiled by sway.cpp and, for AVX2, by sway_avx2.cpp.
+/// The turn of sway.h in plain loops that the compiler makes into vectors; compiled by sway.cpp and, for AVX2, by
+/// sway_avx2.cpp.
 /// Sine and cosine are Taylor's to the 9th and 10th power: within 3e-8 up to the largest turn of 1 rad.
 namespace stillwater {
 
@@ -17,9 +18,10 @@ struct SwayKernel {
 // The vector (dx, dy) from the root, turned by `sign` times the angle that belongs to its length; gives the change.
 static inline void sway_turn(const SwayKernel& k, float sign, float dx, float dy, float* change_x, float* change_y) {
   const float u = sqrtf(dx * dx + dy * dy) * k.inverse_length;
-  const float inside = u * (2.0f + u * (-4.0f / 3.0f + u * (1.0f / 3.0f)));  // eq. 3 over u
-  const float outside = 1.0f / (u < 1.0f ? 1.0f : u);
-  const float angle = sign * k.tip_angle * (u < 1.0f ? inside : outside);
+  const float v = u < 1.0f ? u : 1.0f;
+  const float beyond = u > 1.0f ? u : 1.0f;
+  const float share = v * (2.0f + v * (-4.0f / 3.0f + v * (1.0f / 3.0f))) / beyond;  // eq. 3 over u; 1/u beyond
+  const float angle = sign * k.tip_angle * share;
   const float a2 = angle * angle;
   const float sine =
       angle * (1.0f + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880)))));

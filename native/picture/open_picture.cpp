@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "picture/channels.h"
-#include "picture/whole_jpeg.h"
+#include "picture/whole_file.h"
 
 namespace stillwater {
 namespace {
@@ -75,7 +75,8 @@ cv::Mat stored_channels(OpenPicture& file, int first, int last, OIIO::TypeDesc t
   cv::Mat stored(file.spec.height, file.spec.width, CV_MAKETYPE(depth_of(type), last - first));
   if (!file.input->read_image(file.part, 0, first, last, type, stored.data))
     fail(file.path, "is cut short or damaged", file.input->geterror());
-  if (file.is("jpeg")) require_whole_jpeg(file.path);
+  if ((file.is("jpeg") && !is_whole_jpeg(file.path)) || (file.is("tiff") && !is_whole_tiff(file.path)))
+    fail(file.path, "is cut short or damaged", "its end is missing");
   return stored;
 }
 

@@ -36,8 +36,10 @@ std::unique_ptr<OIIO::ImageInput> open_file(const std::string& path) {
   OIIO::ImageSpec hints;
   hints["oiio:UnassociatedAlpha"] = 1;
   auto input = OIIO::ImageInput::open(path, &hints);
-  if (!input) fail(path, "is not a picture or clip that can be read", OIIO::geterror());
-  return input;
+  if (input) return input;
+  const std::string reason = OIIO::geterror();
+  const bool no_format_fits = reason.find("could not find a format reader") != std::string::npos;
+  fail(path, "is not a picture or clip that can be read", no_format_fits ? "" : reason);
 }
 
 void fail(const std::string& path, const std::string& sentence, const std::string& reason) {

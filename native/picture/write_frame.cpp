@@ -7,9 +7,8 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/process.h"
 #include "picture/colour.h"
-#include "picture/openimageio.h"
+#include "picture/picture_file.h"
 
 namespace stillwater {
 namespace {
@@ -111,9 +110,9 @@ int rows_at_a_time(int height, std::size_t row_bytes) {
   return fitting >= height ? height : std::max(rows_together, fitting / rows_together * rows_together);
 }
 
-void write_rows(OIIO::ImageOutput& output, const FrameImages& images, bool half, const std::string& path) {
+void write_rows(PictureFile& file, std::size_t pixel_bytes, const FrameImages& images, bool half) {
   const int width = images.combined.cols, height = images.combined.rows;
-  const std::size_t pixel_bytes = output.spec().pixel_bytes(true), row_bytes = pixel_bytes * width;
+  const std::size_t row_bytes = pixel_bytes * width;
   const int step = rows_at_a_time(height, row_bytes);
   std::vector<unsigned char> packed(row_bytes * step);
   for (int begin = 0; begin < height; begin += step) {
@@ -124,8 +123,9 @@ void write_rows(OIIO::ImageOutput& output, const FrameImages& images, bool half,
         pack(images, begin + y, row);
       }
     });
-    if (!output.write_scanlines(begin, end, 0, OIIO::TypeUnknown, packed.data()))
-      fail(path, "cannot be written", output.geterror());
+    file.write([&](OIIO::ImageOutput& output) {
+      return output.write_scanlines(begin, end, 0, OIIO::TypeUnknown, packed.data());
+    });
   }
 }
 
@@ -134,15 +134,9 @@ void write_rows(OIIO::ImageOutput& output, const FrameImages& images, bool half,
 void write_frame(const std::string& path, const FrameImages& images, const FrameOptions& options) {
   require_valid(images, options);
   const OIIO::ImageSpec spec = header(images, options);
-  give_threads_to_openimageio();
-  const std::string temporary = temporary_name(path);
-  TemporaryFile file(temporary);
-  const auto output = OIIO::ImageOutput::create("exr");
-  if (!output) fail(path, "cannot be written", OIIO::geterror());
-  if (!output->open(temporary, spec)) fail(path, "cannot be written", output->geterror());
-  write_rows(*output, images, options.half, path);
-  if (!output->close()) fail(path, "cannot be written", output->geterror());
-  file.keep_as(path);
+  PictureFile file(path, "exr", spec);
+  write_rows(file, spec.pixel_bytes(true), images, options.half);
+  file.finish();
 }
 
 std::string read_frame_key(const std::string& path) {

@@ -9,9 +9,8 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/process.h"
 #include "picture/colour.h"
-#include "picture/openimageio.h"
+#include "picture/picture_file.h"
 
 namespace stillwater {
 namespace {
@@ -56,7 +55,8 @@ OIIO::ImageSpec header(const Format& format, const Rgba& image, OIIO::TypeDesc t
   const bool alpha = exr || (format.name != "JPEG" && any_alpha_below_one(image));
   OIIO::ImageSpec spec(image.cols, image.rows, alpha ? 4 : 3, type);
   if (alpha && !exr) spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+  // Not for TIFF: it would become a directory of its own (EXIF), for which the writer must read the file again.
+  if (format.name != "TIFF") spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
   if (exr) spec.attribute("compression", "zip");
   if (format.name == "TIFF") spec.attribute("compression", "lzw");
   if (format.name == "JPEG") {
@@ -126,15 +126,9 @@ void write_picture(const std::string& path, const Rgba& image, int bits) {
   check::size("image", image.cols, image.rows);
   const Format& format = format_of(path);
   const OIIO::TypeDesc type = stored_type(format, bits_for(format, bits));
-  give_threads_to_openimageio();
-  const std::string temporary = temporary_name(path);
-  TemporaryFile file(temporary);
-  const auto output = OIIO::ImageOutput::create(format.extension.substr(1));
-  if (!output) fail(path, "cannot be written", OIIO::geterror());
-  if (!output->open(temporary, header(format, image, type))) fail(path, "cannot be written", output->geterror());
-  if (!write_pixels(*output, image, type)) fail(path, "cannot be written", output->geterror());
-  if (!output->close()) fail(path, "cannot be written", output->geterror());
-  file.keep_as(path);
+  PictureFile file(path, format.extension.substr(1), header(format, image, type));
+  file.write([&](OIIO::ImageOutput& output) { return write_pixels(output, image, type); });
+  file.finish();
 }
 
 }  // namespace stillwater

@@ -22,6 +22,11 @@ _HOMES = {
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",
+    "read": "images",
+    "write": "images",
+    "read_clip": "images",
+    "srgb_to_linear": "images",
+    "linear_to_srgb": "images",
 }
 
 __all__ = sorted(_HOMES)

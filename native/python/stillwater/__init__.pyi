@@ -1,6 +1,13 @@
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
+from .images import linear_to_srgb as linear_to_srgb
+from .images import read as read
+from .images import read_clip as read_clip
+from .images import srgb_to_linear as srgb_to_linear
+from .images import write as write
+from .layers import displace as displace
+from .layers import over as over
+from .motion import Wind as Wind
+from .motion import drift as drift
+from .motion import sway as sway
 from .recipe import Document as Document
 from .recipe import RecipeError as RecipeError
 from .recipe import load as load
@@ -12,52 +19,3 @@ class BadInput(ValueError): ...
 class FileError(OSError): ...
 class Cancelled(RuntimeError): ...
 class NotConverged(RuntimeError): ...
-
-class Wind:
-    speed: float
-    direction: float
-    gusts: float
-    gust_size: float
-    seed: int
-    def __init__(
-        self, speed: float = 5, direction: float = 0, gusts: float = 0, gust_size: float = 0.25, seed: int = 0
-    ) -> None: ...
-    def series(
-        self, seconds: ArrayLike, *, seed: int = 0, loop_seconds: float | None = None
-    ) -> NDArray[np.float64]: ...
-    def gust(
-        self,
-        place: tuple[float, float],
-        size: tuple[int, int],
-        frame: float,
-        *,
-        fps: float = 24,
-        loop: int | None = None,
-    ) -> float: ...
-
-def sway(
-    size: tuple[int, int],
-    frame: float,
-    armature: tuple[tuple[float, float], tuple[float, float]],
-    *,
-    wind: Wind | None = None,
-    fps: float = 24,
-    loop: int | None = None,
-    frequency: float = 0.6,
-    mass: float = 1.0,
-    damping: float = 0.4,
-    amount: float = 1.0,
-    foreshortening: float = 0.0,
-    shimmer: float = 0.0,
-    seed: int = 0,
-    forward: bool = False,
-) -> NDArray[np.float32]: ...
-def drift(
-    size: tuple[int, int],
-    frame: float,
-    *,
-    velocity: tuple[float, float] | None = None,
-    wind: float = 0.5,
-    under: Wind | None = None,
-    forward: bool = False,
-) -> NDArray[np.float32]: ...

@@ -38,8 +38,9 @@ class Wind:
         seed: of the element.
         loop_seconds: period; the series closes after it. None: 128 s.
 
-        The power spectrum is P_V(f) = c v / (1 + 500 m f / v)^(5/3), one-sided, with nothing at f = 0 and from 8 Hz on; c gives an rms
-        of 0.17 of the speed over many seeds. Source: Chuang et al. 2005, eq. 8 and 9; METHODS.md 1.
+        The one-sided power spectrum is P_V(f) = c v / (1 + 500 m f / v)^(5/3), whose whole integral is the square of
+        0.17 v; the series has its part from one turn a period to 8 Hz. Raises BadInput (a ValueError).
+        Source: Chuang et al. 2005, eq. 8 and 9; METHODS.md 1.
         """
         noise = engine.TurbulenceNoise(seed)
         seconds = np.asarray(seconds, np.float64)
