@@ -143,7 +143,7 @@ def written():
     engine.write_frame = write
 
 
-@settings(max_examples=150, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 @given(recipe=recipes)
 def test_a_random_recipe_is_rendered_or_refused(pictures, written, recipe):
     written.clear()
