@@ -27,7 +27,9 @@ void bind_water(py::module_& module) {
              view.height = height;
              return view;
            }),
-           py::arg("horizon") = std::nullopt, py::arg("fov") = 50.0, py::arg("height") = 1.7);
+           py::arg("horizon") = std::nullopt, py::arg("fov") = 50.0, py::arg("height") = 1.7)
+      .def("any_water", [](const View& view, std::array<int, 4> b) { return view.any_water({b[0], b[1], b[2], b[3]}); },
+           py::arg("box"));
   py::class_<Ripple>(module, "Ripple")
       .def(py::init([](double amplitude, double roughness, double tile, int resolution, const std::string& mode,
                        const std::string& spectrum, double fetch, double depth, std::uint64_t seed) {

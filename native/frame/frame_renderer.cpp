@@ -20,7 +20,7 @@ std::vector<MotionNumbers> motion_numbers(const FrameNumbers& frame) {
 
 void take_alpha(Rgba& colour, const Rgba& alpha) {
   auto from = alpha.begin();
-  for (cv::Vec4f& pixel : colour) pixel[3] = (*from++)[0];
+  for (cv::Vec4f& pixel : colour) pixel[3] = std::clamp((*from++)[0], 0.0f, 1.0f);  // sampling a grey picture overshoots
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Rgba filled(const Rgba& colour, const Confidence& confidence) {
 }
 
 Plane softened(const Plane& matte, double feather) {
-  if (feather <= 0) return matte.clone();
+  if (feather < 1e-6) return matte.clone();  // of a narrower Gaussian OpenCV can't make a kernel
   Plane soft;
   cv::GaussianBlur(matte, soft, cv::Size(), feather / 2, feather / 2, cv::BORDER_REPLICATE);
   return soft;

@@ -49,7 +49,7 @@ motions = some.one_of(
     ),
     some.builds(
         lambda more: {"type": "ripple", "resolution": 16} | more,
-        parts(amplitude=animated(0, 1000, 1), roughness=number(1e-6, 1e4, 1), tile=number(10, 2000, 60),
+        parts(amplitude=animated(0, 1000, 1), roughness=number(1e-4, 1e4, 1), tile=number(10, 2000, 60),
               mode=some.sampled_from(["height", "normal"]),
               spectrum=some.sampled_from(["phillips", "pierson-moskowitz", "jonswap", "tma"]),
               fetch=number(1e-6, 1e5, 100), depth=number(1e-6, 12000, 200), seed=seed,
@@ -65,7 +65,8 @@ motions = some.one_of(
 )  # fmt: skip
 
 mattes = some.one_of(
-    some.integers(0, 4).map(lambda value: {"labels": "labels.png", "value": value}), some.just({"file": "soft.png"})
+    some.integers(0, 4).map(lambda value: {"labels": "labels.png", "value": value}),
+    some.sampled_from([{"file": "soft.png"}, {"file": "white.png"}]),
 )
 
 
@@ -117,24 +118,32 @@ def pictures(tmp_path_factory):
     y, x = np.mgrid[:HEIGHT, :WIDTH]
     Image.fromarray((y // 6 + (x > 12)).astype(np.uint8)).save(folder / "labels.png")
     Image.fromarray(np.clip(255 * (6 - np.hypot(x - 12, y - 8)), 0, 255).astype(np.uint8)).save(folder / "soft.png")
+    Image.new("L", (WIDTH, HEIGHT), 255).save(folder / "white.png")
     return folder
+
+
+class Written(list):
+    """The arrays of all frames; shown as a number where a test fails."""
+
+    def __repr__(self):
+        return f"{len(self)} frames"
 
 
 @pytest.fixture(scope="module")
 def written():
     """What is handed over to be written: (path, combined, flow, matte), before half floats hide anything."""
-    arrays, write = [], engine.write_frame
+    written, write = Written(), engine.write_frame
 
     def watch(path, combined, flow, matte, **how):
-        arrays.append((combined, flow, matte, *(image for _, image in how["layers"])))
+        written.append((combined, flow, matte, *(image for _, image in how["layers"])))
         write(path, combined, flow, matte, **how)
 
     engine.write_frame = watch
-    yield arrays
+    yield written
     engine.write_frame = write
 
 
-@settings(max_examples=150, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 @given(recipe=recipes)
 def test_a_random_recipe_is_rendered_or_refused(pictures, written, recipe):
     written.clear()
@@ -149,5 +158,8 @@ def test_a_random_recipe_is_rendered_or_refused(pictures, written, recipe):
             return
         assert len(list((folder / "frames").iterdir())) == len(written) == 3
     for combined, flow, matte, *others in written:
-        assert all(np.isfinite(array).all() for array in (combined, flow, matte, *others))
-        assert all(0 <= array.min() and array.max() <= 1 for array in (combined[..., 3], matte))
+        finite = [bool(np.isfinite(array).all()) for array in (combined, flow, matte, *others)]
+        assert all(finite), finite
+        ranges = [(float(array.min()), float(array.max())) for array in (combined[..., 3], matte)]
+        # 1e-6: what sixteen rounded weights of an opaque pixel may add up to beyond 1.
+        assert all(low >= 0 and high <= 1 + 1e-6 for low, high in ranges), ranges

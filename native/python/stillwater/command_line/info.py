@@ -11,8 +11,12 @@ def _run(given) -> None:
     from ..recipe import load
     from ..render.loop import Job, Order
     from ..render.memory import needed_bytes
+    from .show import Warnings
 
     job = Job(load(given.file), Order())
+    show = Warnings()
+    for event in job.check_files():
+        show(event)
     recipe, (width, height) = job.recipe, job.sources.size
     frames = range(job.first, job.last + 1)
     standing = sum(job.stands(frame, job.keys.of(frame)) for frame in frames)

@@ -24,6 +24,13 @@ def say(sentence: str) -> None:
     print(f"stillwater: {sentence}", file=sys.stderr, flush=True)
 
 
+def own_standard_error() -> None:
+    """Keeps standard error for our sentences: what libraries print there by themselves (libpng, FFmpeg) is dropped."""
+    sys.stderr = os.fdopen(os.dup(2), "w", buffering=1, errors="backslashreplace")
+    with open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), 2)
+
+
 def run(arguments: list[str]) -> int:
     """Runs one command; whatever goes wrong ends as a sentence on standard error.
 

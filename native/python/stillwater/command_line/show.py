@@ -9,7 +9,7 @@ from ..render.events import Error, Event, Frame, Preparing, Started, Warn
 @contextlib.contextmanager
 def shown(how: str):
     """A function that shows an event; errors that end the work are shown too, and go on to whoever called."""
-    show = {"json": _Lines, "bar": _Bar, "none": _Warnings}[how]()
+    show = {"json": Lines, "bar": Bar, "none": Warnings}[how]()
     try:
         yield show
     except BrokenPipeError:
@@ -28,7 +28,9 @@ def sentence_of(error: Exception) -> str:
     return "; ".join(str(error).splitlines()) or type(error).__name__
 
 
-class _Warnings:
+class Warnings:
+    """Warnings on standard error, nothing else."""
+
     def __call__(self, event: Event) -> None:
         if isinstance(event, Warn):
             print(f"stillwater: warning: {event.sentence}", file=sys.stderr, flush=True)
@@ -37,7 +39,9 @@ class _Warnings:
         pass
 
 
-class _Lines:
+class Lines:
+    """Every event as one line of JSON on standard output."""
+
     def __call__(self, event: Event) -> None:
         import msgspec
 
@@ -48,7 +52,9 @@ class _Lines:
         pass
 
 
-class _Bar:
+class Bar:
+    """A bar on standard error, warnings above it."""
+
     def __init__(self):
         self._bar = None
 

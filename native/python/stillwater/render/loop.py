@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import math
+import shutil
 import time
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
@@ -54,15 +55,17 @@ class Job:
         self.keys = FrameKeys(self.timeline, self.sources.key, self.sources.size, self.scale)
         self.stack: Prepared | None = None if order.fresh else self.cache.find(self.sources.key)
         self.images = None
+        self.boxes: list = []  # of the layers in the picture; check_files() finds them
+        self.has_alpha = False
 
     def check_files(self) -> Iterator[Event]:
         """Reads the files, where the cache has not what they gave; warns of what is odd in them."""
         if self.stack is None:
             self.images = yield from self.sources.read()
-            said, boxes = self.images.warnings, boxes_of(self.images)
+            said, self.boxes, self.has_alpha = self.images.warnings, boxes_of(self.images), self.images.has_alpha
         else:
-            said, boxes = self.stack.facts["warnings"], self.stack.facts["colour"]
-        check_view(self.recipe, boxes)
+            said, self.boxes, self.has_alpha = (self.stack.facts[name] for name in ("warnings", "colour", "has_alpha"))
+        check_view(self.recipe, self.boxes)
         yield from map(Warn, [*said, *filled_otherwise(self.recipe), *self.timeline.warnings()])
 
     def prepare(self, claim) -> Iterator[Event]:
@@ -99,7 +102,10 @@ class Job:
                 options=engine.FrameOptions(half=output.depth == "half", compression=output.compression, key=key),
             )
         except engine.FileError as error:
-            raise Failed(str(error)) from None
+            left = shutil.disk_usage(self.folder).free
+            full = left < made.combined.nbytes
+            why = f"{self.path(frame)}: cannot be written: the disk is full ({left} bytes left)" if full else str(error)
+            raise Failed(why) from None
 
     def _own_layers(self, made) -> list[tuple[str, np.ndarray]]:
         """The layers that are not hidden, each alone; one that covers nothing is None in the engine's answer."""

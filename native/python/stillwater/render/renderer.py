@@ -17,7 +17,7 @@ class Renderer:
     def __init__(self, timeline: Timeline, stack: Prepared, size: tuple[int, int], scale: float):
         recipe = timeline.recipe
         place = {layer.name: i for i, layer in enumerate(recipe.layers)}
-        start = timeline.at(recipe.frames[0])
+        start = timeline.at(1)  # animated fields are replaced at each frame
         self._timeline, self._layers_too = timeline, recipe.output.layers
         images = layer_images(stack, "colour")
         layers = [
@@ -53,8 +53,7 @@ class Renderer:
 
 
 def _moment(now: MomentNow):
-    wind = engine.Wind(**_fields(now.wind))
-    return engine.Moment(now.frame, now.fps, now.first_frame, now.loop_frames, wind, loop_travel=now.loop_travel)
+    return engine.Moment(**{**_fields(now), "wind": engine.Wind(**_fields(now.wind))})
 
 
 def _motion(motion):
