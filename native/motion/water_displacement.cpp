@@ -4,188 +4,245 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "core/parallel.h"
-#include "motion/ripple.h"
 
 namespace stillwater {
 namespace {
 
-/// Standard deviation of the filter for a footprint of length 1: as much as the pixel's square keeps of a wave of
-/// two pixels.
-constexpr double footprint_deviation = 0.4;
-
 /// A raised point keeps at least this share of its distance along the optical axis.
-constexpr double nearest = 0.25;
+constexpr float nearest = 0.25f;
 
-constexpr int rounds = 3;
+/// Columns that one sweep takes along.
+constexpr int strip = Ripmap::block;
 
-/// No wave reaches the eye, however high the amplitude: above half its height the crests flatten.
-double below_the_eye(double height, double eye) {
-  const double share = std::abs(height) / eye;
-  if (share <= 0.5) return height;
-  const double over = 2 * share - 1;
-  return std::copysign(eye * (0.5 + 0.5 * over / (1 + over)), height);
+/// Lines by which the kept nodes grow until they hold all that is seen in the region.
+constexpr int growth = 32;
+
+struct Box {
+  double left, right, top, bottom;
+};
+
+Box level_box(const WaterPlane& plane, cv::Rect region) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Box box{far, -far, far, -far};
+  for (const double x : {region.x, region.x + region.width})
+    for (const double y : {region.y, region.y + region.height}) {
+      const Point p = plane.level({x, y});
+      box.left = std::min(box.left, p.x), box.right = std::max(box.right, p.x);
+      box.top = std::min(box.top, p.y), box.bottom = std::max(box.bottom, p.y);
+    }
+  return box;
 }
 
-/// Far away a pixel is longer than the tile. Of a sea that doesn't repeat itself, the waves that run across the
-/// view and so are not averaged out would then become fewer with the distance.
-double lattice_damping(double along, double side) {
-  const double longest = side / (2 * std::sqrt(std::numbers::pi));
-  return along <= longest ? 1 : std::sqrt(longest / along);
+/// Calls `move(level_x, level_y)`, which changes them, for each point below the horizon.
+template <class Move>
+void for_each_level(const WaterPlane& plane, float* x, float* y, int count, const Move& move) {
+  for (int i = 0; i < count; ++i) {
+    const Point p = plane.level({x[i], y[i]});
+    if (p.y <= plane.horizon()) continue;
+    float level_x = static_cast<float>(p.x), level_y = static_cast<float>(p.y);
+    const float from_x = level_x, from_y = level_y;
+    move(level_x, level_y);
+    const Point q = plane.picture({p.x + (level_x - from_x), p.y + (level_y - from_y)});
+    x[i] = static_cast<float>(q.x), y[i] = static_cast<float>(q.y);
+  }
 }
 
 }  // namespace
 
-WaterDisplacement::WaterDisplacement(const WaterPlane& plane, const WaterSurface& surface, cv::Size picture,
-                                     cv::Rect region)
+RaisedWater::RaisedWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater heights)
     : plane_(plane),
-      surface_(surface),
-      picture_width_(picture.width),
-      offset_x_(picture.width % 2 == 0 ? 0.5 : 0),
-      offset_y_(picture.height % 2 == 0 ? 0.5 : 0) {
-  measure(picture);
-  if (!rest_) fill_grid(region);
+      heights_(std::move(heights)),
+      eye_(static_cast<float>(plane.height())),
+      to_slant_(static_cast<float>(plane.cosine() / plane.focal())),
+      horizon_(static_cast<float>(plane.horizon())),
+      up_z_(static_cast<float>(plane.up_z())),
+      pull_(static_cast<float>(plane.focal() * plane.cosine())) {
+  const Box box = level_box(plane, {0, 0, picture.width, picture.height});
+  const double slant = std::max(0.0, plane.slant(box.bottom)), up = std::abs(plane.up_z());
+  double kappa = slant * heights_.bound() / plane.height();
+  if (up > 0) kappa = std::min(kappa, (1 - nearest) / up);
+  const double far_x = up * std::max(std::abs(box.left), std::abs(box.right));
+  const double far_y = pull_ + up * std::max(std::abs(box.top), std::abs(box.bottom));
+  reach_ = static_cast<float>(kappa / (1 - kappa * up) * std::hypot(far_x, far_y) * (1 + 1e-5));
+  if (reach_ > 0) keep_region(region, picture.height);
 }
 
-/// The largest displacement of any point of the picture, from the largest value of the tile.
-void WaterDisplacement::measure(cv::Size picture) {
-  const auto largest = [&](const std::shared_ptr<const Ripmap>& values) { return surface_.amplitude * values->bound(); };
-  double slant = 0, side = 0;
-  for (const double x : {0, picture.width})
-    for (const double y : {0, picture.height}) {
-      const Point p = plane_.level({x, y});
-      slant = std::max(slant, plane_.slant(p.y));
-      const double u = -plane_.up_z() * p.x, v = -plane_.focal() * plane_.cosine() - plane_.up_z() * p.y;
-      side = std::max(side, std::hypot(u, v));
-    }
-  if (surface_.heights) {
-    const double height = below_the_eye(largest(surface_.heights), plane_.height());
-    const double up = std::abs(plane_.up_z());
-    double kappa = slant * height / plane_.height();
-    if (up > 0) kappa = std::min(kappa, (1 - nearest) / up);
-    reach_ = static_cast<float>(side * kappa / (1 - kappa * up) * (1 + 1e-5));
-  } else {
-    reach_ = static_cast<float>(std::hypot(largest(surface_.slopes_right), largest(surface_.slopes_away)) *
-                                pixels_per_slope * picture_width_ * (1 + 1e-5));
-  }
-  rest_ = slant <= 0 || reach_ == 0;
-  if (rest_) reach_ = 0;
+/// kappa / (1 + kappa n_z): the point r goes to r + share (n - n_z r) along the line to the vertical vanishing point n / n_z.
+RaisedWater::Raise RaisedWater::raise(float level_x, float level_y) const {
+  float down;
+  const float height = heights_.at(level_x, level_y, &down);
+  const float slant = (level_y - horizon_) * to_slant_;
+  float kappa = height * slant / eye_;
+  if (up_z_ != 0) kappa = std::clamp(kappa * up_z_, nearest - 1, 1 - nearest) / up_z_;
+  const float slope = (down * slant + height * to_slant_) / eye_;
+  return {kappa / (1 + kappa * up_z_), -slope * pull_};
 }
 
-void WaterDisplacement::fill_block(int block, int j, float* a, float* b) const {
-  constexpr int count = Ripmap::block;
-  const double y = node_y(j), x = node_x(block * count);
-  const double slant = plane_.slant(y);
-  if (slant <= 0) {
-    std::fill_n(a, count, 0.0f);
-    std::fill_n(b, count, 0.0f);
-    return;
-  }
-  const double samples = surface_.samples_per_metre;
-  const double lambda = plane_.height() / slant;
-  const double away = lambda * (plane_.cosine() + plane_.up_z() * y / plane_.focal());
-  const double width = lambda / plane_.focal() * samples, length = std::max(1.0, lambda / plane_.height()) * width;
-  FootprintRow row;
-  row.x = x * width, row.step = width, row.y = away * samples;
-  row.across = footprint_deviation * width, row.along = footprint_deviation * length;
-  row.shear_step = plane_.cosine() / plane_.focal(), row.shear_first = row.shear_step * x;
-  const double damping = surface_.amplitude * lattice_damping(row.along, surface_.side);
-  if (surface_.heights) {
-    surface_.heights->filtered(row, a);
-    for (int i = 0; i < count; ++i)
-      a[i] = static_cast<float>(below_the_eye(damping * a[i], plane_.height()) * slant / plane_.height());
-  } else {
-    surface_.slopes_right->filtered(row, a);
-    surface_.slopes_away->filtered(row, b);
-    const float scale = static_cast<float>(damping * pixels_per_slope * picture_width_);
-    for (int i = 0; i < count; ++i) a[i] *= scale, b[i] *= -scale;
-  }
+float RaisedWater::lift(float share, float level_y) const { return -share * (pull_ + up_z_ * level_y); }
+
+/// y of the point that comes to level_y when it is raised by `rise`.
+double RaisedWater::lowest_source(double level_y, double rise) const {
+  const double slant = plane_.slant(level_y), eta = rise / plane_.height();
+  const double shrink = std::max(1e-3, 1 - eta - slant * eta * plane_.up_z());
+  return plane_.horizon() + (level_y - plane_.horizon()) / shrink;
 }
 
-void WaterDisplacement::fill_grid(cv::Rect region) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  double left = far, right = -far, top = far, bottom = -far;
-  for (const double x : {region.x, region.x + region.width})
-    for (const double y : {region.y, region.y + region.height}) {
-      const Point p = plane_.level({x, y});
-      left = std::min(left, p.x), right = std::max(right, p.x);
-      top = std::min(top, p.y), bottom = std::max(bottom, p.y);
-    }
-  top = std::max(top, plane_.horizon());
-  if (region.empty() || bottom <= top) return;
-  constexpr int count = Ripmap::block;
-  first_block_ = static_cast<int>(std::floor((left - offset_x_ - 1) / count));
-  const int blocks = static_cast<int>(std::floor((right - offset_x_ + 1) / count)) + 1 - first_block_;
-  first_row_ = static_cast<int>(std::floor(top - offset_y_));
-  const int rows = static_cast<int>(std::ceil(bottom - offset_y_)) + 1 - first_row_;
-  a_.create(rows, blocks * count);
-  if (!surface_.heights) b_.create(rows, blocks * count);
-  parallel_rows(rows, 8, [&](int first, int last) {
-    std::array<float, count> unused;
-    for (int j = first; j < last; ++j)
-      for (int i = 0; i < blocks; ++i)
-        fill_block(first_block_ + i, first_row_ + j, &a_(j, i * count),
-                   b_.empty() ? unused.data() : &b_(j, i * count));
+void RaisedWater::keep_region(cv::Rect region, int picture_height) {
+  const Box box = level_box(plane_, region);
+  if (region.empty() || box.bottom <= plane_.horizon()) return;
+  const double top = std::max(box.top - 1, plane_.horizon());
+  first_line_ = heights_.line(top);
+  const int last_target = heights_.line(box.bottom + 1) + 1;
+  const int top_source = heights_.line(std::max(plane_.horizon(), lowest_source(top, -heights_.bound()))) - 1;
+  const int most = std::min(heights_.line(lowest_source(box.bottom + 1, heights_.bound())) + 1, last_target + 2 * picture_height);
+  // Looking down, what is seen in a column comes from a little beside it.
+  const double beside = plane_.up_z() == 0 ? 1 : strip;
+  heights_.keep(heights_.column(box.left - beside), heights_.column(box.right + beside) + 1, std::min(top_source, first_line_), last_target);
+  const auto all_seen = [&] {
+    const int j = heights_.last_line();
+    const float y = static_cast<float>(heights_.node_y(j));
+    for (int i = heights_.first_column(); i <= heights_.last_column(); ++i)
+      if (y + lift(raise(static_cast<float>(heights_.node_x(i)), y).share, y) < heights_.node_y(last_target)) return false;
+    return true;
+  };
+  while (heights_.last_line() < most && !all_seen()) heights_.keep_more(std::min(most, heights_.last_line() + growth));
+
+  sources_.create(last_target + 1 - first_line_, heights_.last_column() + 1 - heights_.first_column());
+  parallel_rows(sources_.cols / strip, 1, [&](int first, int last) {
+    for (int s = first; s < last; ++s) sweep(s * strip);
   });
 }
 
-WaterDisplacement::Node WaterDisplacement::node(int i, int j) const {
-  constexpr int count = Ripmap::block;
-  const int column = i - first_block_ * count, line = j - first_row_;
-  if (column >= 0 && column < a_.cols && line >= 0 && line < a_.rows)
-    return {a_(line, column), b_.empty() ? 0 : b_(line, column)};
-  std::array<float, count> a, b;
-  const int block = static_cast<int>(std::floor(static_cast<double>(i) / count));
-  fill_block(block, j, a.data(), b.data());
-  const int k = i - block * count;
-  return {a[k], surface_.heights ? 0 : b[k]};
-}
-
-WaterDisplacement::Node WaterDisplacement::between(Point level) const {
-  const double x = level.x - offset_x_, y = level.y - offset_y_;
-  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
-  const float u = static_cast<float>(x - i), v = static_cast<float>(y - j);
-  const Node p = node(i, j), q = node(i + 1, j), r = node(i, j + 1), s = node(i + 1, j + 1);
-  const auto mix = [&](float a, float b, float c, float d) { return (1 - v) * (a + u * (b - a)) + v * (c + u * (d - c)); };
-  return {mix(p.a, q.a, r.a, s.a), mix(p.b, q.b, r.b, s.b)};
-}
-
-WaterDisplacement::Shift WaterDisplacement::displaced(Point level) const {
-  if (plane_.slant(level.y) <= 0) return {0, 0};
-  const Node n = between(level);
-  if (!surface_.heights) return {n.a, n.b};
-  const double bent = std::max(nearest - 1, std::min(1 - nearest, n.a * plane_.up_z()));
-  const double kappa = plane_.up_z() != 0 ? bent / plane_.up_z() : n.a;
-  const double share = kappa / (1 + bent);
-  return {-share * plane_.up_z() * level.x, -share * (plane_.focal() * plane_.cosine() + plane_.up_z() * level.y)};
-}
-
-void WaterDisplacement::map(float* x, float* y, int count) const {
-  if (rest_) return;
-  for (int i = 0; i < count; ++i) {
-    const Point p = plane_.level({x[i], y[i]});
-    const Shift d = displaced(p);
-    if (d.x == 0 && d.y == 0) continue;
-    const Point q = plane_.picture({p.x + d.x, p.y + d.y});
-    x[i] = static_cast<float>(q.x), y[i] = static_cast<float>(q.y);
-  }
-}
-
-void WaterDisplacement::unmap(float* x, float* y, int count) const {
-  if (rest_) return;
-  for (int i = 0; i < count; ++i) {
-    const Point p = plane_.level({x[i], y[i]});
-    if (plane_.slant(p.y) <= 0) continue;
-    Point q = p;
-    for (int round = 0; round < rounds; ++round) {
-      const Shift d = displaced(q);
-      q = {p.x - d.x, p.y - d.y};
+/// One strip of columns from the nearest line to the furthest. `seen` is the highest place in the picture that the nearer
+/// lines have reached; a line shows itself where it rises above that.
+void RaisedWater::sweep(int first_column) {
+  std::array<float, strip> seen, before;
+  std::array<int, strip> target;
+  target.fill(sources_.rows - 1);
+  const float first_y = static_cast<float>(heights_.node_y(first_line_));
+  for (int j = heights_.last_line(); j >= heights_.first_line(); --j) {
+    const float* heights = heights_.kept_line(j) + first_column;
+    const float y = static_cast<float>(heights_.node_y(j));
+    const float slant = std::max(0.0f, (y - horizon_) * to_slant_);
+    for (int i = 0; i < strip; ++i) {
+      float kappa = heights[i] * slant / eye_;
+      if (up_z_ != 0) kappa = std::clamp(kappa * up_z_, nearest - 1, 1 - nearest) / up_z_;
+      const float here = y + lift(kappa / (1 + kappa * up_z_), y);
+      float* source = &sources_(0, first_column + i);
+      const auto rest = [&](float place) {  // beyond the kept lines: displaced like the last one
+        for (; target[i] >= 0 && first_y + static_cast<float>(target[i]) > place; --target[i])
+          source[target[i] * static_cast<int>(sources_.step1())] = y - here;
+      };
+      if (j == heights_.last_line()) {
+        rest(here);
+      } else if (here < seen[i]) {
+        for (; target[i] >= 0; --target[i]) {
+          const float place = first_y + static_cast<float>(target[i]);
+          if (place <= here) break;
+          source[target[i] * static_cast<int>(sources_.step1())] = y + (place - here) / (before[i] - here) - place;
+        }
+      }
+      seen[i] = j == heights_.last_line() ? here : std::min(seen[i], here);
+      before[i] = here;
+      if (j == heights_.first_line()) rest(-std::numeric_limits<float>::infinity());
     }
-    q = plane_.picture(q);
-    x[i] = static_cast<float>(q.x), y[i] = static_cast<float>(q.y);
   }
+}
+
+void RaisedWater::map(float* x, float* y, int count) const {
+  if (at_rest()) return;
+  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
+    const float share = raise(level_x, level_y).share;
+    const float to_y = level_y + lift(share, level_y);
+    level_x -= share * up_z_ * level_x;
+    level_y = to_y;
+  });
+}
+
+void RaisedWater::unmap(float* x, float* y, int count) const {
+  if (at_rest()) return;
+  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
+    const float to_x = level_x, to_y = level_y;
+    // Where it would come from along its column; x along the line to the vanishing point; then one step of Newton's, but
+    // for the pixels in which a crest ends, where the two sides have nothing to do with each other.
+    float from = to_y + source_offset(to_x, to_y);
+    const auto x_of = [&](float from_y) { return to_x * (pull_ + up_z_ * from_y) / (pull_ + up_z_ * to_y); };
+    const Raise at = raise(x_of(from), from);
+    const float missed = from + lift(at.share, from) - to_y, steepness = 1 + at.down;
+    if (steepness > 0.5f && std::abs(missed) < 0.5f) from -= missed / steepness;
+    level_x = x_of(from), level_y = from;
+  });
+}
+
+float RaisedWater::source_offset(float level_x, float level_y) const {
+  const float x = level_x - static_cast<float>(heights_.node_x(heights_.first_column()));
+  const float y = level_y - static_cast<float>(heights_.node_y(first_line_));
+  if (x < 0 || y < 0 || x >= static_cast<float>(sources_.cols - 1) || y >= static_cast<float>(sources_.rows - 1))
+    return searched_offset(level_x, level_y);
+  const int i = static_cast<int>(x), j = static_cast<int>(y);
+  const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
+  const float *a = sources_[j] + i, *b = sources_[j + 1] + i;
+  const float above = a[0] + u * (a[1] - a[0]), beneath = b[0] + u * (b[1] - b[0]);
+  return above + v * (beneath - above);
+}
+
+/// The same for one place: down to where the highest wave could come from, then upwards to the first line that reaches it.
+float RaisedWater::searched_offset(float level_x, float level_y) const {
+  float y = static_cast<float>(lowest_source(level_y, heights_.bound()));
+  float before = y + lift(raise(level_x, y).share, y);
+  while (y > horizon_) {
+    const float higher = std::max(horizon_, y - 1);
+    const float here = higher + lift(raise(level_x, higher).share, higher);
+    if (here <= level_y) return higher + (before > here ? (level_y - here) / (before - here) * (y - higher) : 0) - level_y;
+    y = higher, before = here;
+  }
+  return 0;
+}
+
+MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater slopes_right,
+                         FilteredWater slopes_away, double pixels_per_slope)
+    : plane_(plane),
+      right_(std::move(slopes_right)),
+      away_(std::move(slopes_away)),
+      pixels_(static_cast<float>(pixels_per_slope)),
+      fade_(0.02f * static_cast<float>(picture.width)),
+      horizon_(static_cast<float>(plane.horizon())),
+      reach_(static_cast<float>(pixels_per_slope * std::hypot(right_.bound(), away_.bound()) * (1 + 1e-5))) {
+  if (level_box(plane, {0, 0, picture.width, picture.height}).bottom <= plane.horizon()) reach_ = 0;
+  Box box = level_box(plane, region);
+  if (at_rest() || region.empty() || box.bottom <= plane.horizon()) return;
+  for (FilteredWater* slopes : {&right_, &away_})
+    slopes->keep(slopes->column(box.left - reach_), slopes->column(box.right + reach_) + 1,
+                 slopes->line(std::max(plane.horizon(), box.top - reach_)), slopes->line(box.bottom + reach_) + 1);
+}
+
+cv::Vec2f MirrorWater::displaced(float level_x, float level_y) const {
+  const float below = std::max(0.0f, level_y - horizon_);
+  const float scale = pixels_ * below / (below + fade_);
+  return {scale * right_.at(level_x, level_y), -scale * away_.at(level_x, level_y)};
+}
+
+void MirrorWater::map(float* x, float* y, int count) const {
+  if (at_rest()) return;
+  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
+    const cv::Vec2f d = displaced(level_x, level_y);
+    level_x += d[0], level_y += d[1];
+  });
+}
+
+void MirrorWater::unmap(float* x, float* y, int count) const {
+  constexpr int rounds = 3;
+  if (at_rest()) return;
+  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
+    const float to_x = level_x, to_y = level_y;
+    for (int round = 0; round < rounds; ++round) {
+      const cv::Vec2f d = displaced(level_x, level_y);
+      level_x = to_x - d[0], level_y = to_y - d[1];
+    }
+  });
 }
 
 }  // namespace stillwater
