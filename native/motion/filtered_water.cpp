@@ -133,28 +133,24 @@ void FilteredWater::fill_block(int block, int j, float* values) const {
     for (int i = 0; i < block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
 }
 
+water_nodes FilteredWater::kept_nodes() const {
+  return {kept_[0], static_cast<int>(kept_.step1()), static_cast<float>(node_x(first_block_ * block_side)),
+          static_cast<float>(node_y(first_line_)), static_cast<float>(kept_.cols - 1), static_cast<float>(kept_.rows - 1)};
+}
+
 float FilteredWater::node(int i, int j) const {
-  const int column = i - first_column(), line = j - first_line_;
+  const int block = floor_div(i, block_side);
+  const int column = i - first_block_ * block_side, line = j - first_line_;
   if (column >= 0 && column < kept_.cols && line >= 0 && line < kept_.rows) return kept_(line, column);
   std::array<float, block_side> values;
-  const int block = floor_div(i, block_side);
   fill_block(block, j, values.data());
   return values[i - block * block_side];
 }
 
-float FilteredWater::at(float level_x, float level_y, float* down) const {
-  const float x = level_x - static_cast<float>(offset_x_), y = level_y - static_cast<float>(offset_y_);
-  const float floor_x = std::floor(x), floor_y = std::floor(y);
-  const int i = static_cast<int>(floor_x), j = static_cast<int>(floor_y);
-  const float u = x - floor_x, v = y - floor_y;
-  float a, b, c, d;
-  const int column = i - first_column(), line = j - first_line_;
-  if (column >= 0 && column + 1 < kept_.cols && line >= 0 && line + 1 < kept_.rows) {
-    const float *upper = kept_[line] + column, *lower = kept_[line + 1] + column;
-    a = upper[0], b = upper[1], c = lower[0], d = lower[1];
-  } else {
-    a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
-  }
+float FilteredWater::at(Point level, float* down) const {
+  const int i = column(level.x), j = line(level.y);
+  const float u = static_cast<float>(level.x - node_x(i)), v = static_cast<float>(level.y - node_y(j));
+  const float a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
   const float above = a + u * (b - a), beneath = c + u * (d - c);
   if (down) *down = beneath - above;
   return above + v * (beneath - above);

@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "motion/gusts.h"
 #include "motion/ripmap.h"
+#include "motion/ripple_kernel.h"
 #include "motion/view.h"
 #include "motion/wind.h"
 
@@ -59,18 +60,15 @@ class FilteredWater {
   void keep_more(int last_line);
   int first_line() const { return first_line_; }
   int last_line() const { return first_line_ + kept_.rows - 1; }
-  int first_column() const { return first_block_ * Ripmap::block; }
-  int last_column() const { return first_column() + kept_.cols - 1; }
-
-  /// The kept line j, from first_column() on.
   const float* kept_line(int j) const { return kept_[j - first_line_]; }
-  float node(int i, int j) const;
+  water_nodes kept_nodes() const;
 
   /// At a place in level coordinates; `down` is its derivative along y.
-  float at(float level_x, float level_y, float* down = nullptr) const;
+  float at(Point level, float* down = nullptr) const;
 
  private:
   void fill_block(int block, int j, float* values) const;
+  float node(int i, int j) const;
 
   WaterPlane plane_;
   std::shared_ptr<const Ripmap> tile_;

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
+#include "core/cpu.h"
 #include "core/parallel.h"
+#include "motion/ripple_avx2.h"
 
 namespace stillwater {
 namespace {
@@ -36,55 +39,60 @@ Box level_box(const WaterPlane& plane, cv::Rect region) {
   return box;
 }
 
-/// Calls `move(level_x, level_y)`, which changes them, for each point below the horizon.
+/// Calls `move(level)`, which changes it, for each point below the horizon.
 template <class Move>
 void for_each_level(const WaterPlane& plane, float* x, float* y, int count, const Move& move) {
   for (int i = 0; i < count; ++i) {
-    const Point p = plane.level({x[i], y[i]});
-    if (p.y <= plane.horizon()) continue;
-    float level_x = static_cast<float>(p.x), level_y = static_cast<float>(p.y);
-    const float from_x = level_x, from_y = level_y;
-    move(level_x, level_y);
-    const Point q = plane.picture({p.x + (level_x - from_x), p.y + (level_y - from_y)});
-    x[i] = static_cast<float>(q.x), y[i] = static_cast<float>(q.y);
+    Point level = plane.level({x[i], y[i]});
+    if (level.y <= plane.horizon()) continue;
+    move(level);
+    const Point to = plane.picture(level);
+    x[i] = static_cast<float>(to.x), y[i] = static_cast<float>(to.y);
   }
+}
+
+/// Nodes that hold no place.
+water_nodes no_nodes() {
+  static constexpr float zeros[4] = {};
+  return {zeros, 2, std::numeric_limits<float>::max(), 0, 1, 1};
 }
 
 }  // namespace
 
 RaisedWater::RaisedWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater heights)
-    : plane_(plane),
-      heights_(std::move(heights)),
-      eye_(static_cast<float>(plane.height())),
-      to_slant_(static_cast<float>(plane.cosine() / plane.focal())),
-      horizon_(static_cast<float>(plane.horizon())),
-      up_z_(static_cast<float>(plane.up_z())),
-      pull_(static_cast<float>(plane.focal() * plane.cosine())) {
+    : plane_(plane), heights_(std::move(heights)) {
+  const Point centre = plane.picture({0, 0}), right = plane.picture({1, 0});
+  const double up = std::abs(plane.up_z());
+  const double most_kappa = up > 0 ? (1 - nearest) / up : std::numeric_limits<float>::max();
+  water_.centre_x = static_cast<float>(centre.x), water_.centre_y = static_cast<float>(centre.y);
+  water_.along_x = static_cast<float>(right.x - centre.x), water_.along_y = static_cast<float>(right.y - centre.y);
+  water_.horizon = static_cast<float>(plane.horizon());
+  water_.kappa_of_height = static_cast<float>(plane.cosine() / (plane.focal() * plane.height()));
+  water_.up_z = static_cast<float>(plane.up_z());
+  water_.pull = static_cast<float>(plane.focal() * plane.cosine());
+  water_.most_kappa = static_cast<float>(most_kappa);
+  water_.heights = water_.sources = no_nodes();
+
   const Box box = level_box(plane, {0, 0, picture.width, picture.height});
-  const double slant = std::max(0.0, plane.slant(box.bottom)), up = std::abs(plane.up_z());
-  double kappa = slant * heights_.bound() / plane.height();
-  if (up > 0) kappa = std::min(kappa, (1 - nearest) / up);
+  const double kappa = std::min(most_kappa, std::max(0.0, plane.slant(box.bottom)) * heights_.bound() / plane.height());
   const double far_x = up * std::max(std::abs(box.left), std::abs(box.right));
-  const double far_y = pull_ + up * std::max(std::abs(box.top), std::abs(box.bottom));
+  const double far_y = water_.pull + up * std::max(std::abs(box.top), std::abs(box.bottom));
   reach_ = static_cast<float>(kappa / (1 - kappa * up) * std::hypot(far_x, far_y) * (1 + 1e-5));
-  if (reach_ > 0) keep_region(region, picture.height);
+  if (!at_rest()) keep_region(region, picture.height);
 }
 
-/// kappa / (1 + kappa n_z): the point r goes to r + share (n - n_z r) along the line to the vertical vanishing point n / n_z.
-RaisedWater::Raise RaisedWater::raise(float level_x, float level_y) const {
+/// The point r goes to r + share (n - n_z r), share = kappa / (1 + kappa n_z).
+RaisedWater::Raise RaisedWater::raise(Point level) const {
   float down;
-  const float height = heights_.at(level_x, level_y, &down);
-  const float slant = (level_y - horizon_) * to_slant_;
-  float kappa = height * slant / eye_;
-  if (up_z_ != 0) kappa = std::clamp(kappa * up_z_, nearest - 1, 1 - nearest) / up_z_;
-  const float slope = (down * slant + height * to_slant_) / eye_;
-  return {kappa / (1 + kappa * up_z_), -slope * pull_};
+  const float height = heights_.at(level, &down);
+  const float below = static_cast<float>(level.y) - water_.horizon;
+  return {raised_share(water_, height, below), -(down * below + height) * water_.kappa_of_height * water_.pull};
 }
 
-float RaisedWater::lift(float share, float level_y) const { return -share * (pull_ + up_z_ * level_y); }
+double RaisedWater::lift(float share, double level_y) const { return -share * (water_.pull + water_.up_z * level_y); }
 
 /// y of the point that comes to level_y when it is raised by `rise`.
-double RaisedWater::lowest_source(double level_y, double rise) const {
+double RaisedWater::furthest_source(double level_y, double rise) const {
   const double slant = plane_.slant(level_y), eta = rise / plane_.height();
   const double shrink = std::max(1e-3, 1 - eta - slant * eta * plane_.up_z());
   return plane_.horizon() + (level_y - plane_.horizon()) / shrink;
@@ -93,113 +101,122 @@ double RaisedWater::lowest_source(double level_y, double rise) const {
 void RaisedWater::keep_region(cv::Rect region, int picture_height) {
   const Box box = level_box(plane_, region);
   if (region.empty() || box.bottom <= plane_.horizon()) return;
-  const double top = std::max(box.top - 1, plane_.horizon());
-  first_line_ = heights_.line(top);
-  const int last_target = heights_.line(box.bottom + 1) + 1;
-  const int top_source = heights_.line(std::max(plane_.horizon(), lowest_source(top, -heights_.bound()))) - 1;
-  const int most = std::min(heights_.line(lowest_source(box.bottom + 1, heights_.bound())) + 1, last_target + 2 * picture_height);
+  const double top = std::max(box.top - 1, plane_.horizon()), bottom = box.bottom + 1;
+  const int first_target = heights_.line(top), last_target = heights_.line(bottom) + 1;
+  const int first = heights_.line(std::max(plane_.horizon(), furthest_source(top, -heights_.bound()))) - 1;
+  const int most = std::min(heights_.line(furthest_source(bottom, heights_.bound())) + 1, last_target + 2 * picture_height);
   // Looking down, what is seen in a column comes from a little beside it.
   const double beside = plane_.up_z() == 0 ? 1 : strip;
-  heights_.keep(heights_.column(box.left - beside), heights_.column(box.right + beside) + 1, std::min(top_source, first_line_), last_target);
-  const auto all_seen = [&] {
-    const int j = heights_.last_line();
-    const float y = static_cast<float>(heights_.node_y(j));
-    for (int i = heights_.first_column(); i <= heights_.last_column(); ++i)
-      if (y + lift(raise(static_cast<float>(heights_.node_x(i)), y).share, y) < heights_.node_y(last_target)) return false;
-    return true;
-  };
-  while (heights_.last_line() < most && !all_seen()) heights_.keep_more(std::min(most, heights_.last_line() + growth));
+  heights_.keep(heights_.column(box.left - beside), heights_.column(box.right + beside) + 1, std::min(first, first_target), last_target);
+  while (heights_.last_line() < most && !all_seen(last_target)) heights_.keep_more(std::min(most, heights_.last_line() + growth));
+  water_.heights = heights_.kept_nodes();
 
-  sources_.create(last_target + 1 - first_line_, heights_.last_column() + 1 - heights_.first_column());
-  parallel_rows(sources_.cols / strip, 1, [&](int first, int last) {
-    for (int s = first; s < last; ++s) sweep(s * strip);
+  sources_.create(last_target + 1 - first_target, static_cast<int>(water_.heights.last_column) + 1);
+  water_.sources = {sources_[0], static_cast<int>(sources_.step1()), water_.heights.x,
+                    static_cast<float>(heights_.node_y(first_target)), water_.heights.last_column,
+                    static_cast<float>(sources_.rows - 1)};
+  parallel_rows(sources_.cols / strip, 1, [&](int begin, int end) {
+    for (int s = begin; s < end; ++s) sweep(s * strip);
   });
 }
 
-/// One strip of columns from the nearest line to the furthest. `seen` is the highest place in the picture that the nearer
-/// lines have reached; a line shows itself where it rises above that.
+/// True where the nearest kept line comes to lie below the last target in all columns.
+bool RaisedWater::all_seen(int last_target) const {
+  const int j = heights_.last_line();
+  std::vector<float> to_y(static_cast<size_t>(heights_.kept_nodes().last_column) + 1);
+  raised_line(&water_, heights_.kept_line(j), static_cast<float>(heights_.node_y(j)), static_cast<int>(to_y.size()), to_y.data());
+  return *std::min_element(to_y.begin(), to_y.end()) >= heights_.node_y(last_target);
+}
+
+/// One strip of columns from the nearest line to the furthest. A line shows itself in a column where it rises above the
+/// highest place, `seen`, that the nearer ones have reached.
 void RaisedWater::sweep(int first_column) {
-  std::array<float, strip> seen, before;
-  std::array<int, strip> target;
+  const auto line = has_avx2() ? raised_line_avx2 : raised_line;
+  const int stride = water_.sources.stride;
+  const float first_y = water_.sources.y;
+  float* const sources = &sources_(0, first_column);
+  std::array<float, strip> here, before, seen;
+  std::array<int, strip> target;  // the next line of sources_, and the place that it stands for
+  std::array<float, strip> place;
   target.fill(sources_.rows - 1);
-  const float first_y = static_cast<float>(heights_.node_y(first_line_));
-  for (int j = heights_.last_line(); j >= heights_.first_line(); --j) {
-    const float* heights = heights_.kept_line(j) + first_column;
-    const float y = static_cast<float>(heights_.node_y(j));
-    const float slant = std::max(0.0f, (y - horizon_) * to_slant_);
-    for (int i = 0; i < strip; ++i) {
-      float kappa = heights[i] * slant / eye_;
-      if (up_z_ != 0) kappa = std::clamp(kappa * up_z_, nearest - 1, 1 - nearest) / up_z_;
-      const float here = y + lift(kappa / (1 + kappa * up_z_), y);
-      float* source = &sources_(0, first_column + i);
-      const auto rest = [&](float place) {  // beyond the kept lines: displaced like the last one
-        for (; target[i] >= 0 && first_y + static_cast<float>(target[i]) > place; --target[i])
-          source[target[i] * static_cast<int>(sources_.step1())] = y - here;
-      };
-      if (j == heights_.last_line()) {
-        rest(here);
-      } else if (here < seen[i]) {
-        for (; target[i] >= 0; --target[i]) {
-          const float place = first_y + static_cast<float>(target[i]);
-          if (place <= here) break;
-          source[target[i] * static_cast<int>(sources_.step1())] = y + (place - here) / (before[i] - here) - place;
-        }
-      }
-      seen[i] = j == heights_.last_line() ? here : std::min(seen[i], here);
-      before[i] = here;
-      if (j == heights_.first_line()) rest(-std::numeric_limits<float>::infinity());
+  place.fill(first_y + static_cast<float>(sources_.rows - 1));
+  const auto found = [&](int i, float source) {
+    sources[target[i] * stride + i] = source - place[i];
+    place[i] = first_y + static_cast<float>(--target[i]);
+  };
+
+  float y = static_cast<float>(heights_.node_y(heights_.last_line()));
+  for (int j = heights_.last_line(); j >= heights_.first_line(); --j, --y) {
+    line(&water_, heights_.kept_line(j) + first_column, y, strip, here.data());
+    if (j == heights_.last_line()) {
+      for (int i = 0; i < strip; ++i)  // nearer than what is kept: displaced like that
+        while (target[i] >= 0 && place[i] > here[i]) found(i, place[i] + y - here[i]);
+      seen = here;
     }
+    for (int i = 0; i < strip; ++i) {
+      if (here[i] < seen[i]) {
+        const float slope = 1 / (before[i] - here[i]);
+        while (target[i] >= 0 && place[i] > here[i]) found(i, y + (place[i] - here[i]) * slope);
+        seen[i] = here[i];
+      }
+    }
+    before = here;
+  }
+  for (int i = 0; i < strip; ++i)
+    while (target[i] >= 0) found(i, place[i]);
+}
+
+void RaisedWater::map_level(Point& level) const {
+  const float share = raise(level).share;
+  level = {level.x - share * water_.up_z * level.x, level.y + lift(share, level.y)};
+}
+
+/// The search for one place, where no nodes are kept: from where the highest wave could come from, upwards to the first
+/// line that reaches it.
+void RaisedWater::unmap_level(Point& level) const {
+  const Point to = level;
+  const auto source = [&](double y) { return Point{to.x * (water_.pull + water_.up_z * y) / (water_.pull + water_.up_z * to.y), y}; };
+  const auto seen_at = [&](double y) { return y + lift(raise(source(y)).share, y); };
+  double nearer = furthest_source(to.y, heights_.bound()), before = seen_at(nearer);
+  for (double y = nearer - 1; nearer > plane_.horizon(); nearer = y, --y) {
+    y = std::max(y, plane_.horizon());
+    const double here = seen_at(y);
+    if (here <= to.y) {
+      level = source(before > here ? y + (to.y - here) / (before - here) * (nearer - y) : y);
+      return;
+    }
+    before = here;
   }
 }
 
+namespace {
+
+/// The kernel for batches; what it leaves out, one by one.
+template <class Kernel, class One>
+void in_batches(const WaterPlane& plane, float* x, float* y, int count, const Kernel& kernel, const One& one) {
+  std::array<int, water_batch> left_out;
+  for (int first = 0; first < count; first += water_batch) {
+    const int batch = std::min<int>(water_batch, count - first);
+    kernel(x + first, y + first, batch, left_out.data());
+    for (int i = 0; i < batch; ++i)
+      if (left_out[i]) for_each_level(plane, x + first + i, y + first + i, 1, one);
+  }
+}
+
+}  // namespace
+
 void RaisedWater::map(float* x, float* y, int count) const {
   if (at_rest()) return;
-  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
-    const float share = raise(level_x, level_y).share;
-    const float to_y = level_y + lift(share, level_y);
-    level_x -= share * up_z_ * level_x;
-    level_y = to_y;
-  });
+  const auto kernel = has_avx2() ? raised_map_avx2 : raised_map;
+  in_batches(plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, a, b, batch, out); },
+             [&](Point& level) { map_level(level); });
 }
 
 void RaisedWater::unmap(float* x, float* y, int count) const {
   if (at_rest()) return;
-  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
-    const float to_x = level_x, to_y = level_y;
-    // Where it would come from along its column; x along the line to the vanishing point; then one step of Newton's, but
-    // for the pixels in which a crest ends, where the two sides have nothing to do with each other.
-    float from = to_y + source_offset(to_x, to_y);
-    const auto x_of = [&](float from_y) { return to_x * (pull_ + up_z_ * from_y) / (pull_ + up_z_ * to_y); };
-    const Raise at = raise(x_of(from), from);
-    const float missed = from + lift(at.share, from) - to_y, steepness = 1 + at.down;
-    if (steepness > 0.5f && std::abs(missed) < 0.5f) from -= missed / steepness;
-    level_x = x_of(from), level_y = from;
-  });
-}
-
-float RaisedWater::source_offset(float level_x, float level_y) const {
-  const float x = level_x - static_cast<float>(heights_.node_x(heights_.first_column()));
-  const float y = level_y - static_cast<float>(heights_.node_y(first_line_));
-  if (x < 0 || y < 0 || x >= static_cast<float>(sources_.cols - 1) || y >= static_cast<float>(sources_.rows - 1))
-    return searched_offset(level_x, level_y);
-  const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const float u = x - static_cast<float>(i), v = y - static_cast<float>(j);
-  const float *a = sources_[j] + i, *b = sources_[j + 1] + i;
-  const float above = a[0] + u * (a[1] - a[0]), beneath = b[0] + u * (b[1] - b[0]);
-  return above + v * (beneath - above);
-}
-
-/// The same for one place: down to where the highest wave could come from, then upwards to the first line that reaches it.
-float RaisedWater::searched_offset(float level_x, float level_y) const {
-  float y = static_cast<float>(lowest_source(level_y, heights_.bound()));
-  float before = y + lift(raise(level_x, y).share, y);
-  while (y > horizon_) {
-    const float higher = std::max(horizon_, y - 1);
-    const float here = higher + lift(raise(level_x, higher).share, higher);
-    if (here <= level_y) return higher + (before > here ? (level_y - here) / (before - here) * (y - higher) : 0) - level_y;
-    y = higher, before = here;
-  }
-  return 0;
+  const auto kernel = has_avx2() ? raised_unmap_avx2 : raised_unmap;
+  in_batches(plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, a, b, batch, out); },
+             [&](Point& level) { unmap_level(level); });
 }
 
 MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater slopes_right,
@@ -207,9 +224,8 @@ MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect reg
     : plane_(plane),
       right_(std::move(slopes_right)),
       away_(std::move(slopes_away)),
-      pixels_(static_cast<float>(pixels_per_slope)),
-      fade_(0.02f * static_cast<float>(picture.width)),
-      horizon_(static_cast<float>(plane.horizon())),
+      pixels_(pixels_per_slope),
+      fade_(0.02 * picture.width),
       reach_(static_cast<float>(pixels_per_slope * std::hypot(right_.bound(), away_.bound()) * (1 + 1e-5))) {
   if (level_box(plane, {0, 0, picture.width, picture.height}).bottom <= plane.horizon()) reach_ = 0;
   Box box = level_box(plane, region);
@@ -219,28 +235,28 @@ MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect reg
                  slopes->line(std::max(plane.horizon(), box.top - reach_)), slopes->line(box.bottom + reach_) + 1);
 }
 
-cv::Vec2f MirrorWater::displaced(float level_x, float level_y) const {
-  const float below = std::max(0.0f, level_y - horizon_);
-  const float scale = pixels_ * below / (below + fade_);
-  return {scale * right_.at(level_x, level_y), -scale * away_.at(level_x, level_y)};
+Point MirrorWater::displaced(Point level) const {
+  const double below = std::max(0.0, level.y - plane_.horizon());
+  const double scale = pixels_ * below / (below + fade_);
+  return {scale * right_.at(level), -scale * away_.at(level)};
 }
 
 void MirrorWater::map(float* x, float* y, int count) const {
   if (at_rest()) return;
-  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
-    const cv::Vec2f d = displaced(level_x, level_y);
-    level_x += d[0], level_y += d[1];
+  for_each_level(plane_, x, y, count, [&](Point& level) {
+    const Point d = displaced(level);
+    level.x += d.x, level.y += d.y;
   });
 }
 
 void MirrorWater::unmap(float* x, float* y, int count) const {
   constexpr int rounds = 3;
   if (at_rest()) return;
-  for_each_level(plane_, x, y, count, [&](float& level_x, float& level_y) {
-    const float to_x = level_x, to_y = level_y;
+  for_each_level(plane_, x, y, count, [&](Point& level) {
+    const Point to = level;
     for (int round = 0; round < rounds; ++round) {
-      const cv::Vec2f d = displaced(level_x, level_y);
-      level_x = to_x - d[0], level_y = to_y - d[1];
+      const Point d = displaced(level);
+      level = {to.x - d.x, to.y - d.y};
     }
   });
 }

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <functional>
-
 #include "layers/displacement.h"
 #include "motion/filtered_water.h"
+#include "motion/ripple_kernel.h"
 #include "motion/view.h"
 
 /// The waves of one moment as displacements of the picture: what RippleMotion::at gives.
@@ -27,23 +26,23 @@ class RaisedWater final : public Displacement {
 
  private:
   struct Raise {
-    float share;  ///< of the way to the vertical vanishing point, see raise()
-    float down;   ///< how much further down the picture a point one pixel below is displaced
+    float share;  ///< of the way to the vertical vanishing point
+    float down;   ///< derivative of the displacement along y
   };
-  Raise raise(float level_x, float level_y) const;
-  float lift(float share, float level_y) const;
-  double lowest_source(double level_y, double rise) const;
+  Raise raise(Point level) const;
+  double lift(float share, double level_y) const;
+  double furthest_source(double level_y, double rise) const;
   void keep_region(cv::Rect region, int picture_height);
+  bool all_seen(int last_target) const;
   void sweep(int first_column);
-  float source_offset(float level_x, float level_y) const;
-  float searched_offset(float level_x, float level_y) const;
+  void map_level(Point& level) const;
+  void unmap_level(Point& level) const;
 
   WaterPlane plane_;
   FilteredWater heights_;
-  float eye_, to_slant_, horizon_, up_z_, pull_;  // pull: focal cosine
+  raised_water water_;
   float reach_ = 0;
-  int first_line_ = 0;  ///< of sources_
-  Plane sources_;       ///< y of what is seen at a node, minus the node's
+  Plane sources_;  ///< for nodes: y of what is seen there, minus the node's
 };
 
 /// Mode "normal": points are displaced by the slope of the water, as the mirror image on a tilted facet is: sideways by
@@ -60,11 +59,12 @@ class MirrorWater final : public Displacement {
   void unmap(float* x, float* y, int count) const override;
 
  private:
-  cv::Vec2f displaced(float level_x, float level_y) const;
+  Point displaced(Point level) const;
 
   WaterPlane plane_;
   FilteredWater right_, away_;
-  float pixels_, fade_, horizon_, reach_;
+  double pixels_, fade_;
+  float reach_;
 };
 
 }  // namespace stillwater
