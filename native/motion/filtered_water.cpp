@@ -82,7 +82,8 @@ FilteredWater::FilteredWater(const WaterPlane& plane, cv::Size picture, std::sha
       offset_x_(half_pixel(picture.width)),
       offset_y_(half_pixel(picture.height)) {
   bound_ = factor * tile_->bound() * gusts_->largest();
-  if (ceiling > 0) bound_ = below(static_cast<float>(bound_), static_cast<float>(ceiling));
+  bends_ = ceiling > 0 && bound_ > ceiling / 2;
+  if (bends_) bound_ = below(static_cast<float>(bound_), static_cast<float>(ceiling));
 }
 
 int FilteredWater::column(double level_x) const { return static_cast<int>(std::floor(level_x - offset_x_)); }
@@ -129,7 +130,7 @@ void FilteredWater::fill_block(int block, int j, float* values) const {
   const float factor = static_cast<float>(factor_ * lattice_damping(row.along, on_plane_.side));
   const float start = factor * left, step = factor * (right - left) / block_side;
   for (int i = 0; i < block_side; ++i) values[i] *= start + step * static_cast<float>(i);
-  if (ceiling_ > 0)
+  if (bends_)
     for (int i = 0; i < block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
 }
 

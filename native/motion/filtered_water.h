@@ -74,6 +74,7 @@ class FilteredWater {
   std::shared_ptr<const Ripmap> tile_;
   TileOnPlane on_plane_;
   double factor_, ceiling_, bound_;
+  bool bends_;  ///< some value may come near the ceiling
   std::shared_ptr<const GustBlocks> gusts_;
   double offset_x_, offset_y_;  ///< nodes lie on pixel centres where the horizon is level
   int first_block_ = 0, first_line_ = 0;

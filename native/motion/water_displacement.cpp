@@ -18,7 +18,7 @@ namespace {
 constexpr float nearest = 0.25f;
 
 /// Columns that one sweep takes along.
-constexpr int strip = Ripmap::block;
+constexpr int strip = 2 * Ripmap::block;
 
 /// Lines by which the kept nodes grow until they hold all that is seen in the region.
 constexpr int growth = 32;
@@ -106,7 +106,7 @@ void RaisedWater::keep_region(cv::Rect region, int picture_height) {
   const int first = heights_.line(std::max(plane_.horizon(), furthest_source(top, -heights_.bound()))) - 1;
   const int most = std::min(heights_.line(furthest_source(bottom, heights_.bound())) + 1, last_target + 2 * picture_height);
   // Looking down, what is seen in a column comes from a little beside it.
-  const double beside = plane_.up_z() == 0 ? 1 : strip;
+  const double beside = plane_.up_z() == 0 ? 1 : Ripmap::block;
   heights_.keep(heights_.column(box.left - beside), heights_.column(box.right + beside) + 1, std::min(first, first_target), last_target);
   while (heights_.last_line() < most && !all_seen(last_target)) heights_.keep_more(std::min(most, heights_.last_line() + growth));
   water_.heights = heights_.kept_nodes();
@@ -115,9 +115,7 @@ void RaisedWater::keep_region(cv::Rect region, int picture_height) {
   water_.sources = {sources_[0], static_cast<int>(sources_.step1()), water_.heights.x,
                     static_cast<float>(heights_.node_y(first_target)), water_.heights.last_column,
                     static_cast<float>(sources_.rows - 1)};
-  parallel_rows(sources_.cols / strip, 1, [&](int begin, int end) {
-    for (int s = begin; s < end; ++s) sweep(s * strip);
-  });
+  parallel_rows(sources_.cols, strip, [&](int begin, int end) { sweep(begin, end - begin); });
 }
 
 /// True where the nearest kept line comes to lie below the last target in all columns.
@@ -130,7 +128,7 @@ bool RaisedWater::all_seen(int last_target) const {
 
 /// One strip of columns from the nearest line to the furthest. A line shows itself in a column where it rises above the
 /// highest place, `seen`, that the nearer ones have reached.
-void RaisedWater::sweep(int first_column) {
+void RaisedWater::sweep(int first_column, int columns) {
   const auto line = has_avx2() ? raised_line_avx2 : raised_line;
   const int stride = water_.sources.stride;
   const float first_y = water_.sources.y;
@@ -147,13 +145,13 @@ void RaisedWater::sweep(int first_column) {
 
   float y = static_cast<float>(heights_.node_y(heights_.last_line()));
   for (int j = heights_.last_line(); j >= heights_.first_line(); --j, --y) {
-    line(&water_, heights_.kept_line(j) + first_column, y, strip, here.data());
+    line(&water_, heights_.kept_line(j) + first_column, y, columns, here.data());
     if (j == heights_.last_line()) {
-      for (int i = 0; i < strip; ++i)  // nearer than what is kept: displaced like that
+      for (int i = 0; i < columns; ++i)  // nearer than what is kept: displaced like that
         while (target[i] >= 0 && place[i] > here[i]) found(i, place[i] + y - here[i]);
       seen = here;
     }
-    for (int i = 0; i < strip; ++i) {
+    for (int i = 0; i < columns; ++i) {
       if (here[i] < seen[i]) {
         const float slope = 1 / (before[i] - here[i]);
         while (target[i] >= 0 && place[i] > here[i]) found(i, y + (place[i] - here[i]) * slope);
@@ -162,7 +160,7 @@ void RaisedWater::sweep(int first_column) {
     }
     before = here;
   }
-  for (int i = 0; i < strip; ++i)
+  for (int i = 0; i < columns; ++i)
     while (target[i] >= 0) found(i, place[i]);
 }
 

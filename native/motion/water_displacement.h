@@ -34,7 +34,7 @@ class RaisedWater final : public Displacement {
   double furthest_source(double level_y, double rise) const;
   void keep_region(cv::Rect region, int picture_height);
   bool all_seen(int last_target) const;
-  void sweep(int first_column);
+  void sweep(int first_column, int columns);
   void map_level(Point& level) const;
   void unmap_level(Point& level) const;
 
