@@ -6,6 +6,7 @@
 namespace stillwater {
 
 void bind_core(pybind11::module_& module);
+void bind_motion(pybind11::module_& module);
 void bind_water(pybind11::module_& module);
 
 }  // namespace stillwater

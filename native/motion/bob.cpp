@@ -7,7 +7,6 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "motion/rigid.h"
 
 namespace stillwater {
 namespace {
@@ -87,27 +86,34 @@ double slope(const Axis& axis, const std::vector<Point>& points) {
 
 }  // namespace
 
+std::vector<Point> waterline_samples(const Bob& bob) { return resampled(checked(bob).waterline); }
+
 Segment fitted_waterline(const Bob& bob) {
-  const std::vector<Point> points = resampled(checked(bob).waterline);
+  const std::vector<Point> points = waterline_samples(bob);
   const Axis axis = fitted(points);
   return {axis.at(axis.position(points.front())), axis.at(axis.position(points.back()))};
 }
 
-std::shared_ptr<const Displacement> bob(const Bob& bob, const Displacement& water, cv::Size picture) {
-  const std::vector<Point> rest = resampled(checked(bob).waterline);
-  std::vector<float> x, y;
-  for (const Point& p : rest) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
-  std::vector<float> to_x = x, to_y = y;
-  water.map(to_x.data(), to_y.data(), samples);
-  // What the water adds, so that the coordinates' rounding doesn't move a boat on a flat sea.
-  std::vector<Point> moved = rest;
-  for (int i = 0; i < samples; ++i) moved[i].x += to_x[i] - x[i], moved[i].y += to_y[i] - y[i];
-
+std::shared_ptr<const RigidMotion> fitted_motion(const Bob& bob, const std::vector<Point>& moved, cv::Size picture) {
+  const std::vector<Point> rest = waterline_samples(bob);
+  if (moved.size() != rest.size())
+    throw BadInput("moved: " + std::to_string(moved.size()) + " points is not " + std::to_string(rest.size()));
   const Axis axis = fitted(rest);
   const Point from = axis.middle, to = mean(moved);
   const double roll = std::atan(slope(axis, moved)) - std::atan(slope(axis, rest));
   return std::make_shared<RigidMotion>(from, bob.amount * roll,
                                        Point{bob.amount * (to.x - from.x), bob.amount * (to.y - from.y)}, picture);
+}
+
+std::shared_ptr<const RigidMotion> bob(const Bob& bob, const Displacement& water, cv::Size picture) {
+  std::vector<Point> points = waterline_samples(bob);
+  std::vector<float> x, y;
+  for (const Point& p : points) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
+  std::vector<float> to_x = x, to_y = y;
+  water.map(to_x.data(), to_y.data(), samples);
+  // What the water adds, so that the coordinates' rounding doesn't move a boat on a flat sea.
+  for (int i = 0; i < samples; ++i) points[i].x += to_x[i] - x[i], points[i].y += to_y[i] - y[i];
+  return fitted_motion(bob, points, picture);
 }
 
 }  // namespace stillwater

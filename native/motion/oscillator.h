@@ -16,7 +16,8 @@ struct Oscillator {
   /// D(f) / W(f), eq. 5 solved for D: the motion under a force e^(2 pi i f t). f may be negative.
   std::complex<double> response(double f) const {
     constexpr double turn = 2 * std::numbers::pi;
-    return (1 / mass) / std::complex<double>(turn * turn * (frequency * frequency - f * f), turn * damping * f);
+    const std::complex<double> resistance(turn * turn * (frequency * frequency - f * f), turn * damping * f);
+    return std::conj(resistance) / (mass * std::norm(resistance));
   }
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/error.h"
 #include "motion/filtered_water.h"
 #include "motion/gusts.h"
 #include "motion/view.h"
@@ -83,6 +84,14 @@ std::shared_ptr<const Displacement> RippleMotion::State::made(const Moment& mome
   const double steeper = amplitude * ripple.roughness;  // the same heights over shorter ways
   return std::make_shared<MirrorWater>(plane, picture, region, filtered(Waves::Quantity::slope_right, steeper, 0),
                                        filtered(Waves::Quantity::slope_away, steeper, 0), pixels_per_slope * picture.width);
+}
+
+std::string name_of(RippleMode mode) { return mode == RippleMode::height ? "height" : "normal"; }
+
+RippleMode ripple_mode_named(const std::string& name) {
+  for (const RippleMode mode : {RippleMode::height, RippleMode::normal})
+    if (name_of(mode) == name) return mode;
+  throw BadInput("mode: \"" + name + "\" is not height or normal");
 }
 
 RippleMotion::RippleMotion(const Ripple& ripple, const View& view, const Wind& wind, cv::Size picture, cv::Rect region) {

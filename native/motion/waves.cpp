@@ -123,4 +123,14 @@ const InverseFft2& Waves::at(double time, Quantity quantity) {
   return transform_;
 }
 
+Plane wave_heights(const WaveTile& tile, double speed, double direction, double seconds, double period) {
+  check::finite("seconds", seconds);
+  Waves waves(tile, period);
+  waves.blow(speed, direction);
+  const InverseFft2& filled = waves.at(period > 0 ? seconds / period : seconds);
+  Plane heights(tile.resolution, tile.resolution);
+  for (int y = 0; y < tile.resolution; ++y) std::copy_n(filled.tile_row(y), tile.resolution, heights[y]);
+  return heights;
+}
+
 }  // namespace stillwater

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fft.h"
+#include "core/image.h"
 #include "motion/spectrum.h"
 
 /// The water's surface as one periodic tile, at any time directly (Chuang et al. 2005, 3.3; Tessendorf 2001, 4.3;
@@ -55,5 +56,9 @@ class Waves {
   std::vector<float> modes_;                 ///< four rows for each ky, see wave_modes() in waves_kernel.h
   InverseFft2 transform_;
 };
+
+/// Heights of one tile, metres, rows away from the viewer, under a wind of `speed` m/s to `direction` degrees. `period` as in
+/// Waves; `seconds` in either case. Throws BadInput.
+Plane wave_heights(const WaveTile& tile, double speed, double direction, double seconds, double period);
 
 }  // namespace stillwater

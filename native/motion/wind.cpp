@@ -29,12 +29,12 @@ void check_wind(const Wind& wind) {
 }
 
 void check_moment(const Moment& moment) {
+  check_wind(moment.wind);
   check::in_range("frame", moment.frame, -1e9, 1e9);
   check::positive("fps", moment.fps);
   check::in_range("loop_frames", moment.loop_frames, 0, 1e9);
   check::finite("loop_travel", moment.loop_travel.x);
   check::finite("loop_travel", moment.loop_travel.y);
-  check_wind(moment.wind);
 }
 
 Point heading(const Wind& wind) {
@@ -88,6 +88,7 @@ TurbulenceNoise::TurbulenceNoise(std::uint64_t seed) {
 }
 
 double turbulence(const TurbulenceNoise& noise, const Moment& moment) {
+  check_moment(moment);
   const TurbulenceClock clock = turbulence_clock(moment);
   const std::complex<double> step = std::polar(1.0, 2 * std::numbers::pi * clock.turn);
   std::complex<double> phase = 1;

@@ -17,6 +17,13 @@ _HOMES = {
     "RecipeError": "recipe",
     "load": "recipe",
     "parse": "recipe",
+    "Wind": "motion",
+    "drift": "motion",
+    "sway": "motion",
+    "Ripple": "motion",
+    "bob": "motion",
+    "ripple": "motion",
+    "wave_heights": "motion",
 }
 
 __all__ = sorted(_HOMES)
