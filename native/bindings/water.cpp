@@ -75,6 +75,13 @@ void bind_waves(py::module_& module) {
       },
       py::kw_only(), py::arg("tile"), py::arg("resolution"), py::arg("spectrum"), py::arg("fetch"), py::arg("depth"),
       py::arg("seed"), py::arg("speed"), py::arg("direction"), py::arg("seconds"), py::arg("period"));
+  py::class_<Waves>(module, "Waves")
+      .def(py::init([](double tile, int resolution) { return Waves(WaveTile{tile, resolution}); }), py::arg("tile"),
+           py::arg("resolution"))
+      .def("blow", &Waves::blow, py::arg("speed"), py::arg("direction"))
+      .def(
+          "fill", [](Waves& waves, double seconds) { waves.at(seconds); }, py::arg("seconds"),
+          py::call_guard<py::gil_scoped_release>());
   module.def(
       "radial_density",
       [](const std::string& spectrum, double wind_speed, double fetch, double depth, double wave_number) {
