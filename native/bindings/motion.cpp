@@ -25,7 +25,8 @@ auto pair_of(Point Owner::*member) {
   return py::cpp_function([member](const Owner& owner) { return as_pair(owner.*member); });
 }
 
-py::array_t<float> evaluated(Field map(const Displacement&, int, int), const Displacement& displacement, std::array<int, 2> size) {
+py::array_t<float> evaluated(Field map(const Displacement&, int, int), const Displacement& displacement,
+                             std::array<int, 2> size) {
   Field field;
   {
     const py::gil_scoped_release released;
@@ -34,11 +35,18 @@ py::array_t<float> evaluated(Field map(const Displacement&, int, int), const Dis
   return as_array(field);
 }
 
+// Points in rows and columns, x and y last, moved by one of a displacement's functions.
+py::array_t<float> moved(void (Displacement::*move)(float*, float*, int) const, const Displacement& displacement,
+                         const FloatArray& points) {
+  Field result = as_image<cv::Vec2f>(points, "points").clone();
+  for (cv::Vec2f& point : result) (displacement.*move)(&point[0], &point[1], 1);
+  return as_array(result);
+}
+
 void bind_wind(py::module_& module) {
   py::class_<Wind>(module, "Wind")
-      .def(py::init([](double speed, double direction, double gusts, double gust_size, std::uint64_t seed, Pair travel) {
-             return Wind{speed, direction, gusts, gust_size, seed, as_point(travel)};
-           }),
+      .def(py::init([](double speed, double direction, double gusts, double gust_size, std::uint64_t seed,
+                       Pair travel) { return Wind{speed, direction, gusts, gust_size, seed, as_point(travel)}; }),
            py::kw_only(), py::arg("speed") = Wind().speed, py::arg("direction") = Wind().direction,
            py::arg("gusts") = Wind().gusts, py::arg("gust_size") = Wind().gust_size, py::arg("seed") = Wind().seed,
            py::arg("travel") = Pair{0, 0})
@@ -75,7 +83,9 @@ void bind_wind(py::module_& module) {
            py::arg("gust_size"), py::arg("seed"), py::arg("picture"))
       .def(
           "factor",
-          [](const GustField& gusts, Pair place, const Moment& moment) { return gusts.factor(as_point(place), moment); },
+          [](const GustField& gusts, Pair place, const Moment& moment) {
+            return gusts.factor(as_point(place), moment);
+          },
           py::arg("place"), py::arg("moment"))
       .def(
           "response",
@@ -92,6 +102,14 @@ void bind_displacement(py::module_& module) {
   py::class_<Displacement, std::shared_ptr<Displacement>>(module, "Displacement")
       .def("at_rest", &Displacement::at_rest)
       .def("reach", &Displacement::reach)
+      .def(
+          "map",
+          [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::map, self, points); },
+          py::arg("points"))
+      .def(
+          "unmap",
+          [](const Displacement& self, const FloatArray& points) { return moved(&Displacement::unmap, self, points); },
+          py::arg("points"))
       .def(
           "displacement_map",
           [](const Displacement& self, std::array<int, 2> size) { return evaluated(displacement_map, self, size); },
@@ -112,8 +130,8 @@ void bind_displacement(py::module_& module) {
 void bind_sway(py::module_& module) {
   const Sway usual;
   py::class_<Sway>(module, "Sway")
-      .def(py::init([](const std::array<Pair, 2>& armature, double frequency, double mass, double damping, double amount,
-                       double foreshortening, double shimmer, std::uint64_t seed) {
+      .def(py::init([](const std::array<Pair, 2>& armature, double frequency, double mass, double damping,
+                       double amount, double foreshortening, double shimmer, std::uint64_t seed) {
              return Sway{as_segment(armature), frequency, mass, damping, amount, foreshortening, shimmer, seed};
            }),
            py::kw_only(), py::arg("armature"), py::arg("frequency") = usual.frequency, py::arg("mass") = usual.mass,
@@ -150,7 +168,9 @@ void bind_sway(py::module_& module) {
 
 void bind_drift(py::module_& module) {
   py::class_<Drift>(module, "Drift")
-      .def(py::init([](Pair offset, Pair loop_offset) { return Drift{as_point(offset), as_point(loop_offset)}; }),
+      .def(py::init([](Pair offset, Pair loop_offset) {
+             return Drift{as_point(offset), as_point(loop_offset)};
+           }),
            py::kw_only(), py::arg("offset") = Pair{0, 0}, py::arg("loop_offset") = Pair{0, 0})
       .def_property_readonly("offset", pair_of(&Drift::offset))
       .def_property_readonly("loop_offset", pair_of(&Drift::loop_offset));

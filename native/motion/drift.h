@@ -19,8 +19,8 @@ struct DriftCopies {
 };
 
 /// Without a loop one copy at the offset. A loop closes by whole turns of the cyclic layer, its way stretched evenly,
-/// where that changes the speed by no more than 10 %. Else by two copies half a loop apart, each of which starts over while the
-/// other stands alone: the first in the middle of the loop, the second at its ends.
+/// where that changes the speed by no more than 10 %. Else by two copies half a loop apart, each of which starts over
+/// while the other stands alone: the first in the middle of the loop, the second at its ends.
 /// At the loop's first frame the first copy stands alone at the plain offset.
 ///
 /// `period`: width and height of the cyclic layer, pixels. Throws BadInput where it is not above 0.

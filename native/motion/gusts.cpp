@@ -57,14 +57,14 @@ double GustField::factor(Point place, const Moment& moment) const {
 
 double GustField::response(Point place, const Moment& moment, const Oscillator& oscillator) const {
   if (moment.wind.gusts == 0) return 0;
-  const Waves waves_here = at(place, moment);
+  const Waves here = at(place, moment);
   const Point towards = heading(moment.wind);
   double motion = 0;
   for (int i = 0; i < waves; ++i) {
     for (int j = 0; j < i; ++j) {
-      const Point number{waves_here.number[i].x - waves_here.number[j].x, waves_here.number[i].y - waves_here.number[j].y};
+      const Point number{here.number[i].x - here.number[j].x, here.number[i].y - here.number[j].y};
       const double frequency = -moment.wind.speed * dot(number, towards) / turn;  // as it passes the place
-      const std::complex<double> force = waves_here.strength[i] * std::conj(waves_here.strength[j]);
+      const std::complex<double> force = here.strength[i] * std::conj(here.strength[j]);
       motion += 2 * (oscillator.response(frequency) * force).real();  // (i, j) and its conjugate (j, i)
     }
   }

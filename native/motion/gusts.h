@@ -11,15 +11,16 @@
 /// Gusts: strength that varies over the picture and travels with the wind. METHODS.md 1 names them as missing in
 /// Chuang et al. 2005; this is our own law.
 ///
-/// The picture is read as a plan of the ground, x to the right, up = away; its width stands for plan_width metres, so a
-/// wind of 5 m/s carries a gust across it in 10 s. Over the plan stands a frozen pattern, the intensity of a sum of
+/// The picture is read as a plan of the ground, x to the right, up = away; its width stands for plan_width metres, so
+/// a wind of 5 m/s carries a gust across it in 10 s. Over the plan stands a frozen pattern, the intensity of a sum of
 /// plane waves of equal strength and random phase ("speckle"),
 ///
 ///     g(q) = | 1/sqrt(N) sum_j exp(i (k_j . q + phi_j)) |^2 ,       k_j Gaussian, both parts of deviation s
 ///
-/// which is never negative, has the mean 1 and, for many waves, the variance 1 and the correlation exp(-s^2 |q|^2): s is such
-/// that this falls to a half over half of gust_size. At a moment the pattern has travelled by Wind::travel:
-/// g(q - travel). Multiplied out, g is 1 plus N (N - 1) plane waves, so an oscillator's answer to it is a sum as well.
+/// which is never negative, has the mean 1 and, for many waves, the variance 1 and the correlation
+/// exp(-s^2 |q|^2): s is such that this falls to a half over half of gust_size. At a moment the pattern has travelled
+/// by Wind::travel: g(q - travel). Multiplied out, g is 1 plus N (N - 1) plane waves, so an oscillator's answer to it
+/// is a sum as well.
 ///
 /// In a loop each k_j is bent, along the way the wind goes in one loop, to the nearest that makes whole turns: the
 /// pattern still travels exactly with the wind and closes.

@@ -98,7 +98,8 @@ class LeavesAtMoment : public Displacement {
       slope_y.y += wy.slope[j] * value.y;
     }
     const float u = std::min(std::sqrt(dx * dx + dy * dy) * per_length_, 1.0f);
-    const float growth = u * u * (3 - 2 * u), steeper = 6 * (1 - u) * per_length_ * per_length_;  // its slope over dx, dy
+    const float growth = u * u * (3 - 2 * u);
+    const float steeper = 6 * (1 - u) * per_length_ * per_length_;  // slope of growth, over dx or dy
     const float cells = growth * per_cell_;
     return {{growth * sum.x, growth * sum.y},
             {cells * slope_x.x + steeper * dx * sum.x, cells * slope_x.y + steeper * dx * sum.y},
@@ -114,7 +115,8 @@ class LeavesAtMoment : public Displacement {
 Shimmer::Shimmer(const Segment& armature, std::uint64_t seed) : armature_(armature), leaves_(side * side) {
   for (int i = 0; i < side * side; ++i) {
     leaves_[i] = {static_cast<float>(slowest + (fastest - slowest) * random_uniform(seed, {i, 0, 3})),
-                  static_cast<float>(random_uniform(seed, {i, 1, 3})), static_cast<float>(random_uniform(seed, {i, 2, 3}))};
+                  static_cast<float>(random_uniform(seed, {i, 1, 3})),
+                  static_cast<float>(random_uniform(seed, {i, 2, 3}))};
   }
 }
 
@@ -123,17 +125,21 @@ std::unique_ptr<const Displacement> Shimmer::at(const Moment& moment, double shi
   const double cell = std::max(cell_share * length, 1.0);
   const double longest = largest_swing * cell * shimmer * local_speed / (local_speed + half_wind);
   const double loop = moment.loop_frames / moment.fps;
+  const auto turns = [&](double frequency) {
+    if (moment.loop_frames == 0) return frequency * moment.seconds();
+    return std::max(1.0, std::nearbyint(frequency * loop)) * (frames_into_loop(moment) / moment.loop_frames);
+  };
+  const auto swing = [&](double turn) {
+    return static_cast<float>(longest / std::numbers::sqrt2 * std::cos(2 * std::numbers::pi * turn));
+  };
   std::vector<Swing> nodes(leaves_.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Leaf& leaf = leaves_[i];
-    const double turns = moment.loop_frames > 0 ? std::max(1.0, std::nearbyint(leaf.frequency * loop)) *
-                                                      (frames_into_loop(moment) / moment.loop_frames)
-                                                : leaf.frequency * moment.seconds();
-    const double swing = longest / std::numbers::sqrt2;
-    nodes[i] = {static_cast<float>(swing * std::cos(2 * std::numbers::pi * (turns - std::floor(turns) + leaf.phase_x))),
-                static_cast<float>(swing * std::cos(2 * std::numbers::pi * (turns - std::floor(turns) + leaf.phase_y)))};
+    const double turn = turns(leaf.frequency), rest = turn - std::floor(turn);
+    nodes[i] = {swing(rest + leaf.phase_x), swing(rest + leaf.phase_y)};
   }
-  return std::make_unique<LeavesAtMoment>(armature_, static_cast<float>(cell), static_cast<float>(longest), std::move(nodes));
+  return std::make_unique<LeavesAtMoment>(armature_, static_cast<float>(cell), static_cast<float>(longest),
+                                          std::move(nodes));
 }
 
 }  // namespace stillwater

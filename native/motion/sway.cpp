@@ -14,6 +14,7 @@ namespace stillwater {
 namespace {
 
 constexpr double rms_at_amount_1 = 0.05;  // of the armature's length, under the default Wind and Sway
+constexpr double shortening_at_1 = 0.5;     // of foreshortening: as seen from 30 degrees below
 constexpr double furthest_armature = 1e6;  // px
 
 void check_sway(const Sway& sway) {
@@ -72,7 +73,8 @@ struct Driven {
   Share share;
   double motion = 0, force = 0, square = 0;
 
-  void add(const TurbulenceNoise& noise, int k, std::complex<double> phase, double velocity, std::complex<double> response) {
+  void add(const TurbulenceNoise& noise, int k, std::complex<double> phase, double velocity,
+           std::complex<double> response) {
     const std::complex<double> wind = velocity * share.of(noise, k);
     force += (wind * phase).real();
     motion += (response * wind * phase).real();
@@ -126,7 +128,8 @@ struct SwayMotion::State {
 SwayMotion::SwayMotion(const Sway& sway, const Wind& wind, cv::Size picture) {
   check_sway(sway);
   check_wind(wind);
-  state_ = std::make_shared<State>(State{sway, picture, TurbulenceNoise(sway.seed), GustField(wind.gust_size, wind.seed, picture),
+  state_ = std::make_shared<State>(State{sway, picture, TurbulenceNoise(sway.seed),
+                                         GustField(wind.gust_size, wind.seed, picture),
                                          Shimmer(sway.armature, sway.seed)});
 }
 
@@ -152,17 +155,20 @@ TipMotion SwayMotion::tip(const Moment& moment, const Sway& now) const {
   const TurbulenceClock clock = turbulence_clock(moment);
   const std::complex<double> step = std::polar(1.0, 2 * std::numbers::pi * clock.turn);
   std::complex<double> phase = 1;
+  double expected = 0;
   for (int k = 1; k <= clock.modes; ++k) {
     phase *= step;
     const double f = k / clock.period;
-    const double velocity = std::sqrt(wind_spectrum(f, speed) / clock.period);
+    const double power = wind_spectrum(f, speed) / clock.period;
+    const double velocity = std::sqrt(power);
     const std::complex<double> response = oscillator.response(f);
+    expected += power * std::norm(response);
     across.add(state_->noise, k, phase, velocity, response);
     depth.add(state_->noise, k, phase, velocity, response);
   }
 
-  // Its expected strength, and the gusts.
-  const double expected = expected_square(oscillator, speed);
+  // Its expected strength: of a long series, also where a loop's is short. The gusts.
+  if (clock.period != turbulence_period) expected = expected_square(oscillator, speed);
   const double gust = state_->gusts.factor(middle(armature), moment);
   const double lean = lean_share * speed * state_->gusts.response(middle(armature), moment, oscillator);
   const double scale = force_of_wind(now, length(armature));
@@ -180,7 +186,7 @@ std::shared_ptr<const Displacement> SwayMotion::at(const Moment& moment, const S
   const TipMotion tip_motion = tip(moment, now);
   const double full = length(armature);
   const double angle = soft_limit(tip_motion.across / full);
-  const double shortening = sway.foreshortening * soft_limit(tip_motion.depth / full);
+  const double shortening = shortening_at_1 * sway.foreshortening * soft_limit(tip_motion.depth / full);
 
   SwayKernel kernel{};
   kernel.root_x = static_cast<float>(armature.from.x);
@@ -194,13 +200,16 @@ std::shared_ptr<const Displacement> SwayMotion::at(const Moment& moment, const S
 
   std::unique_ptr<const Displacement> leaves;
   if (sway.shimmer > 0 && moment.wind.speed > 0) {
-    leaves = state_->shimmer.at(moment, sway.shimmer, moment.wind.speed * state_->gusts.factor(middle(armature), moment));
+    const double local_speed = moment.wind.speed * state_->gusts.factor(middle(armature), moment);
+    leaves = state_->shimmer.at(moment, sway.shimmer, local_speed);
   }
 
   // A turn moves a point along an arc no longer than the tip's; a scale, in proportion to the distance.
-  const double furthest = std::hypot(std::max(std::abs(armature.from.x), std::abs(state_->picture.width - armature.from.x)),
-                                     std::max(std::abs(armature.from.y), std::abs(state_->picture.height - armature.from.y)));
-  const double reach = std::abs(angle) * full + std::expm1(std::abs(shortening)) * furthest + (leaves ? leaves->reach() : 0);
+  const Point root = armature.from;
+  const double furthest = std::hypot(std::max(std::abs(root.x), std::abs(state_->picture.width - root.x)),
+                                     std::max(std::abs(root.y), std::abs(state_->picture.height - root.y)));
+  double reach = std::abs(angle) * full + std::expm1(std::abs(shortening)) * furthest;
+  if (leaves) reach += leaves->reach();
   return std::make_shared<Bending>(kernel, static_cast<float>(reach), std::move(leaves));
 }
 

@@ -17,8 +17,8 @@ struct Sway {
   double frequency = 0.6;     ///< f0, Hz, above 0
   double mass = 1;            ///< m, above 0
   double damping = 0.4;       ///< gamma, 1/s, above 0
-  double amount = 1;          ///< 1 = a tip rms of 0.05 of the armature's length, upright, wind of 5 m/s along the picture, the rest default
-  double foreshortening = 0;  ///< 0 .. 1, share of the tip's motion in depth that shows as a change of length
+  double amount = 1;          ///< 1 = a tip rms of 0.05 of the armature's length (upright, default wind and numbers)
+  double foreshortening = 0;  ///< 0 .. 1, how much motion in depth changes the length; 1 = seen from 30 degrees below
   double shimmer = 0;         ///< 0 .. 1, see shimmer.h
   std::uint64_t seed = 0;
 };
@@ -33,9 +33,9 @@ struct TipMotion {
 /// One layer's sway.
 ///
 /// The tip. The wind's turbulence has three independent parts of one spectrum: along its heading, and with `side_share`
-/// of that strength to the side and upwards. What counts is their sum projected on the direction across the armature in the
-/// picture; the rest of the horizontal part moves the tip in depth. So a wind straight into depth sways an upright tree
-/// half as much, by the side parts alone, which know no direction. Each motion is the closed sum over the modes of
+/// of that strength to the side and upwards. What counts is their sum projected on the direction across the armature in
+/// the picture; the part into depth moves the tip in depth. So a wind straight into depth sways an upright tree half as
+/// much, by the side parts alone, which know no direction. Each motion is the closed sum over the modes of
 ///
 ///     D_tip(f) = W(f)/m / ( (2 pi)^2 (f0^2 - f^2) + i 2 pi gamma f )                      (eq. 5, 6)
 ///
@@ -49,7 +49,8 @@ struct TipMotion {
 ///
 /// The radius stays, so the opposite angle is the exact inverse, and nothing ever folds. d_tip is limited softly to the
 /// armature's length (x / (1 + x^4)^(1/4) of it: 1e-4 less at 0.15, 0.2 % at 0.3): a turn of 1 rad.
-/// Before it is turned, the layer is scaled along the armature, about the root, by exp(-foreshortening depth / length).
+/// Before it is turned, the layer is scaled along the armature, about the root, by
+/// exp(-foreshortening depth / (2 length)); depth is limited alike.
 class SwayMotion {
  public:
   static constexpr double side_share = 0.5;
@@ -59,7 +60,8 @@ class SwayMotion {
   SwayMotion(const Sway& sway, const Wind& wind, cv::Size picture);
   ~SwayMotion();
 
-  /// The displacement at a moment; of `now` only frequency and amount are read, of moment.wind all but seed and gust_size.
+  /// The displacement at a moment. Of `now` only frequency and amount are read, of moment.wind all but seed and
+  /// gust_size.
   std::shared_ptr<const Displacement> at(const Moment& moment, const Sway& now) const;
 
   TipMotion tip(const Moment& moment, const Sway& now) const;

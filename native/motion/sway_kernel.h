@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/// The turn of sway.h in plain loops that the compiler makes into vectors; compiled by sway.cpp and, for AVX2, by sway_avx2.cpp.
+/// The turn of sway.h in plain loops that the compiler makes into vectors; compiled by sway.cpp and, for AVX2, by
+/// sway_avx2.cpp.
 /// Sine and cosine are Taylor's to the 9th and 10th power: within 3e-8 up to the largest turn of 1 rad.
 namespace stillwater {
 
@@ -19,7 +20,7 @@ static inline void sway_turn(const SwayKernel& k, float sign, float dx, float dy
   const float u = sqrtf(dx * dx + dy * dy) * k.inverse_length;
   const float v = u < 1.0f ? u : 1.0f;
   const float beyond = u > 1.0f ? u : 1.0f;
-  const float share = v * (2.0f + v * (-4.0f / 3.0f + v * (1.0f / 3.0f))) / beyond;  // eq. 3 over u; 1 / u beyond the tip
+  const float share = v * (2.0f + v * (-4.0f / 3.0f + v * (1.0f / 3.0f))) / beyond;  // eq. 3 over u; 1/u beyond
   const float angle = sign * k.tip_angle * share;
   const float a2 = angle * angle;
   const float sine =

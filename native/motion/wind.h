@@ -13,12 +13,13 @@ namespace stillwater {
 /// The recipe's `wind`, with its animated numbers resolved for one moment.
 struct Wind {
   double speed = 5;         ///< m/s, 0 .. 40
-  double direction = 0;     ///< degrees, where it blows to over the ground: 0 = picture's right, 90 = away from the viewer
+  double direction = 0;     ///< degrees, where it blows to over the ground: 0 = picture's right, 90 = away from us
   double gusts = 0;         ///< 0 .. 1, share of the speed that comes as moving gusts
   double gust_size = 0.25;  ///< of the picture's width
   std::uint64_t seed = 0;
 
-  /// Resolved from speed and direction: how far the gusts have travelled over the ground since frame 1, in metres (right, away).
+  /// Resolved from speed and direction: how far the gusts have travelled over the ground since frame 1, in metres
+  /// (right, away).
   Point travel;
 };
 
@@ -58,8 +59,9 @@ Point travel_in_loop(Point travelled, Point gained, const Moment& moment);
 double wind_spectrum(double frequency, double speed);
 inline constexpr double turbulence_intensity = 0.17;  ///< rms over mean, open country at 10 m
 
-/// Turbulence is a sum of waves of frequencies k / period, k = 1 .. modes, below turbulence_cutoff. The period is the loop's
-/// (a whole part of it where it is longer than turbulence_period), without a loop turbulence_period.
+/// Turbulence is a sum of waves of frequencies k / period, k = 1 .. modes, up to turbulence_cutoff. The period is the
+/// loop's (a whole part of it where it is longer than turbulence_period), without a loop turbulence_period. A loop
+/// shorter than 1 / turbulence_cutoff has no turbulence.
 struct TurbulenceClock {
   double period;  ///< s
   int modes;

@@ -59,7 +59,8 @@ def test_a_gust_s_lag_between_two_places_is_distance_over_speed(direction, secon
 
 def test_in_a_loop_the_gusts_travel_with_the_wind_and_close():
     wind, loop = stillwater.Wind(gusts=1), 240
-    rows = {x: np.array([wind.gust((x, 200), PICTURE, frame, loop=loop) for frame in range(1, 2 * loop + 1)]) for x in (200, 400)}
+    frames = range(1, 2 * loop + 1)
+    rows = {x: np.array([wind.gust((x, 200), PICTURE, frame, loop=loop) for frame in frames]) for x in (200, 400)}
     for row in rows.values():
         assert np.array_equal(row[:loop], row[loop:])
         assert row.std() > 0.2

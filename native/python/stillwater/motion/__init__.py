@@ -1,4 +1,4 @@
-"""Motions of METHODS.md 1 (Chuang et al. 2005) as displacement maps: what one wind does to trees, water, boats and clouds."""
+"""What one wind does to trees, water, boats and clouds, as displacement maps (Chuang et al. 2005; METHODS.md 1)."""
 
 from .bob import bob
 from .drift import drift

@@ -29,8 +29,8 @@ def sway(
     wind: a Wind; None = the default one.
     fps: frames per second. loop: period in frames; None = no loop (the motion repeats after 128 s).
     frequency: natural, Hz. mass: relative. damping: 1/s.
-    amount: 1 is a tip rms of 0.05 of the armature's length, upright, in a wind of 5 m/s along the picture, the rest default.
-    foreshortening: 0 .. 1, share of the tip's motion in depth that shows as a change of length.
+    amount: 1 is a tip rms of 0.05 of the armature's length (upright, default wind and numbers).
+    foreshortening: 0 .. 1, how much the tip's motion in depth changes the length; 1 = as seen from 30 degrees below.
     shimmer: 0 .. 1, small independent motion of leaves.
     seed: of this layer's share of the wind.
     forward: False = where to sample minus here; True = where the point of the still picture goes minus where it was.

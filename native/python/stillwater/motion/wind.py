@@ -38,8 +38,8 @@ class Wind:
         seed: of the element.
         loop_seconds: period; the series closes after it. None: 128 s.
 
-        The power spectrum is P_V(f) = c v / (1 + 500 m f / v)^(5/3), one-sided, whose whole integral is the square of 0.17 v;
-        the series has its part from one turn a period to 8 Hz. Raises BadInput (a ValueError).
+        The one-sided power spectrum is P_V(f) = c v / (1 + 500 m f / v)^(5/3), whose whole integral is the square of
+        0.17 v; the series has its part from one turn a period to 8 Hz. Raises BadInput (a ValueError).
         Source: Chuang et al. 2005, eq. 8 and 9; METHODS.md 1.
         """
         noise = engine.TurbulenceNoise(seed)
