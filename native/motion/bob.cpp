@@ -19,16 +19,16 @@ double length_of(const std::vector<Point>& line) {
   return length;
 }
 
-/// Points at equal distances along the waterline, so that the regression weighs water, not clicks.
+/// The middles of pieces of equal length, so that the regression weighs water, not clicks.
 std::vector<Point> resampled(const std::vector<Point>& line) {
-  const double step = length_of(line) / (samples - 1);
+  const double step = length_of(line) / samples;
   std::vector<Point> points;
   double gone = 0;
   for (size_t i = 1; i < line.size(); ++i) {
     const Point a = line[i - 1], b = line[i];
     const double piece = std::hypot(b.x - a.x, b.y - a.y);
-    for (; points.size() < samples - 1 && points.size() * step <= gone + piece; ) {
-      const double share = piece > 0 ? (points.size() * step - gone) / piece : 0;
+    for (double place; points.size() < samples && (place = (points.size() + 0.5) * step) <= gone + piece;) {
+      const double share = (place - gone) / piece;
       points.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
     }
     gone += piece;
@@ -89,9 +89,8 @@ double slope(const Axis& axis, const std::vector<Point>& points) {
 std::vector<Point> waterline_samples(const Bob& bob) { return resampled(checked(bob).waterline); }
 
 Segment fitted_waterline(const Bob& bob) {
-  const std::vector<Point> points = waterline_samples(bob);
-  const Axis axis = fitted(points);
-  return {axis.at(axis.position(points.front())), axis.at(axis.position(points.back()))};
+  const Axis axis = fitted(waterline_samples(bob));
+  return {axis.at(axis.position(bob.waterline.front())), axis.at(axis.position(bob.waterline.back()))};
 }
 
 std::shared_ptr<const RigidMotion> fitted_motion(const Bob& bob, const std::vector<Point>& moved, cv::Size picture) {

@@ -9,7 +9,7 @@
 
 /// Boats: heave and roll with the water under the waterline (Chuang et al. 2005, 3.4).
 ///
-/// Points at equal distances along the waterline go where the water takes them. By a line fitted to them, at rest and
+/// Points along the waterline go where the water takes them. By a line fitted to them, at rest and
 /// displaced (linear regression of the offsets across the rest line on the places along it), the layer moves as a
 /// whole: with the line's middle (heave), and turned about it by the change of the line's angle (roll).
 namespace stillwater {
@@ -24,7 +24,7 @@ struct Bob {
 /// it. Throws BadInput where the waterline has fewer than two points or no length.
 Segment fitted_waterline(const Bob& bob);
 
-/// The points of the waterline that are asked where they go, at equal distances. Throws BadInput.
+/// The points of the waterline that are asked where they go: the middles of 64 pieces of equal length. Throws BadInput.
 std::vector<Point> waterline_samples(const Bob& bob);
 
 /// The motion that takes waterline_samples(bob) to `moved`, as near as a rigid motion does. Throws BadInput.

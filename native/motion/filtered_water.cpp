@@ -38,50 +38,56 @@ double lattice_damping(double along, double side) {
 
 }  // namespace
 
-GustBlocks::GustBlocks(const GustField* field, const Moment& moment, const WaterPlane& plane, cv::Size picture)
+LocalWind::LocalWind(const GustField& field, const Moment& moment, const WaterPlane& plane, cv::Size picture)
     : factors_(1, 1, 1.0f) {
-  if (!field || moment.wind.gusts == 0) return;
+  if (moment.wind.gusts == 0) return;
+  while (spacing_ > 4 && spacing_ > moment.wind.gust_size * picture.width / 8) spacing_ /= 2;
   double left = 0, right = 0, top = 0, bottom = 0;
   for (const double x : {0, picture.width})
     for (const double y : {0, picture.height}) {
       const Point p = plane.level({x, y});
       left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y), bottom = std::max(bottom, p.y);
     }
-  first_block_ = static_cast<int>(std::floor(left / block_side)) - 1;
-  first_line_ = static_cast<int>(std::floor(top / block_side)) - 1;
-  factors_.create(static_cast<int>(bottom / block_side) + 3 - first_line_, static_cast<int>(right / block_side) + 3 - first_block_);
+  const auto before = [&](double place) { return static_cast<int>(std::floor(place / spacing_)); };
+  first_column_ = before(left) - 1, first_line_ = before(top) - 1;
+  factors_.create(before(bottom) + 3 - first_line_, before(right) + 3 - first_column_);
   parallel_rows(factors_.rows, 1, [&](int first, int last) {
     for (int j = first; j < last; ++j)
       for (int i = 0; i < factors_.cols; ++i) {
-        const Point level{static_cast<double>((first_block_ + i) * block_side), static_cast<double>((first_line_ + j) * block_side)};
-        factors_(j, i) = static_cast<float>(field->factor(plane.picture(level), moment));
+        const Point level{static_cast<double>((first_column_ + i) * spacing_), static_cast<double>((first_line_ + j) * spacing_)};
+        factors_(j, i) = static_cast<float>(field.factor(plane.picture(level), moment));
       }
   });
   largest_ = *std::max_element(factors_.begin(), factors_.end());
 }
 
-float GustBlocks::corner(int block, int line) const {
-  return factors_(std::clamp(line - first_line_, 0, factors_.rows - 1), std::clamp(block - first_block_, 0, factors_.cols - 1));
+float LocalWind::corner(int column, int line) const {
+  return factors_(std::clamp(line - first_line_, 0, factors_.rows - 1), std::clamp(column - first_column_, 0, factors_.cols - 1));
 }
 
-void GustBlocks::ends(int block, int j, float& left, float& right) const {
-  const int line = floor_div(j, block_side);
-  const float share = static_cast<float>(j - line * block_side) / block_side;
-  const auto at = [&](int b) { return corner(b, line) + share * (corner(b, line + 1) - corner(b, line)); };
-  left = at(block), right = at(block + 1);
+void LocalWind::strengthen(int block, int j, float* values) const {
+  if (factors_.total() == 1) return;
+  const int line = floor_div(j, spacing_);
+  const float share = static_cast<float>(j - line * spacing_) / static_cast<float>(spacing_);
+  const auto at = [&](int column) { return corner(column, line) + share * (corner(column, line + 1) - corner(column, line)); };
+  for (int first = 0; first < block_side; first += spacing_) {
+    const int column = (block * block_side + first) / spacing_;
+    const float left = at(column), step = (at(column + 1) - left) / static_cast<float>(spacing_);
+    for (int i = 0; i < spacing_; ++i) values[first + i] *= left + step * static_cast<float>(i);
+  }
 }
 
 FilteredWater::FilteredWater(const WaterPlane& plane, cv::Size picture, std::shared_ptr<const Ripmap> tile,
-                             TileOnPlane on_plane, double factor, double ceiling, std::shared_ptr<const GustBlocks> gusts)
+                             TileOnPlane on_plane, double factor, double ceiling, std::shared_ptr<const LocalWind> wind)
     : plane_(plane),
       tile_(std::move(tile)),
       on_plane_(on_plane),
       factor_(factor),
       ceiling_(ceiling),
-      gusts_(std::move(gusts)),
+      wind_(std::move(wind)),
       offset_x_(half_pixel(picture.width)),
       offset_y_(half_pixel(picture.height)) {
-  bound_ = factor * tile_->bound() * gusts_->largest();
+  bound_ = factor * tile_->bound() * wind_->largest();
   bends_ = ceiling > 0 && bound_ > ceiling / 2;
   if (bends_) bound_ = below(static_cast<float>(bound_), static_cast<float>(ceiling));
 }
@@ -125,11 +131,9 @@ void FilteredWater::fill_block(int block, int j, float* values) const {
   row.shear_step = plane_.cosine() / plane_.focal(), row.shear_first = row.shear_step * x;
   tile_->filtered(row, values);
 
-  float left, right;
-  gusts_->ends(block, j, left, right);
   const float factor = static_cast<float>(factor_ * lattice_damping(row.along, on_plane_.side));
-  const float start = factor * left, step = factor * (right - left) / block_side;
-  for (int i = 0; i < block_side; ++i) values[i] *= start + step * static_cast<float>(i);
+  for (int i = 0; i < block_side; ++i) values[i] *= factor;
+  wind_->strengthen(block, j, values);
   if (bends_)
     for (int i = 0; i < block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
 }

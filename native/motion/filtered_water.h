@@ -22,20 +22,21 @@ struct TileOnPlane {
   double side = 256;  ///< samples
 };
 
-/// Strength of the wind over the picture against its mean, by blocks (a coarse grid, linear between its corners).
-class GustBlocks {
+/// Strength of the wind over the picture against its mean, on corners an eighth of a gust apart, linear between them.
+class LocalWind {
  public:
-  /// Covers the picture; elsewhere the nearest corner counts. `field` empty: 1 everywhere.
-  GustBlocks(const GustField* field, const Moment& moment, const WaterPlane& plane, cv::Size picture);
+  /// Covers the picture; elsewhere the nearest corner counts.
+  LocalWind(const GustField& field, const Moment& moment, const WaterPlane& plane, cv::Size picture);
 
-  /// At the block's first node of row j, and at the first node of the next block.
-  void ends(int block, int j, float& left, float& right) const;
+  /// Multiplies the values of a block's nodes in line j.
+  void strengthen(int block, int j, float* values) const;
   float largest() const { return largest_; }
 
  private:
-  float corner(int block, int line) const;
+  float corner(int column, int line) const;
 
-  int first_block_ = 0, first_line_ = 0;
+  int spacing_ = Ripmap::block;  ///< level pixels, divides a block
+  int first_column_ = 0, first_line_ = 0;
   Plane factors_;
   float largest_ = 1;
 };
@@ -44,7 +45,7 @@ class FilteredWater {
  public:
   /// `factor` multiplies what the tile holds; `ceiling`, where above 0, is what values approach but never reach.
   FilteredWater(const WaterPlane& plane, cv::Size picture, std::shared_ptr<const Ripmap> tile, TileOnPlane on_plane,
-                double factor, double ceiling, std::shared_ptr<const GustBlocks> gusts);
+                double factor, double ceiling, std::shared_ptr<const LocalWind> wind);
 
   /// No value lies further from 0.
   double bound() const { return bound_; }
@@ -75,7 +76,7 @@ class FilteredWater {
   TileOnPlane on_plane_;
   double factor_, ceiling_, bound_;
   bool bends_;  ///< some value may come near the ceiling
-  std::shared_ptr<const GustBlocks> gusts_;
+  std::shared_ptr<const LocalWind> wind_;
   double offset_x_, offset_y_;  ///< nodes lie on pixel centres where the horizon is level
   int first_block_ = 0, first_line_ = 0;
   Plane kept_;

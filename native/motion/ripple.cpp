@@ -73,11 +73,11 @@ std::shared_ptr<const Displacement> RippleMotion::State::made(const Moment& mome
   if (!waves || loop_seconds(moment) != period) waves.emplace(tile_of(ripple), loop_seconds(moment));
   period = loop_seconds(moment);
   waves->blow(moment.wind.speed, moment.wind.direction);
-  const auto blocks = std::make_shared<const GustBlocks>(&gusts, moment, plane, picture);
+  const auto local_wind = std::make_shared<const LocalWind>(gusts, moment, plane, picture);
   const TileOnPlane on_plane{ripple.resolution * ripple.roughness / ripple.tile, static_cast<double>(ripple.resolution)};
   const auto filtered = [&](Waves::Quantity quantity, double factor, double ceiling) {
     auto levels = std::make_shared<const Ripmap>(waves->at(wave_time(moment), quantity));
-    return FilteredWater(plane, picture, std::move(levels), on_plane, factor, ceiling, blocks);
+    return FilteredWater(plane, picture, std::move(levels), on_plane, factor, ceiling, local_wind);
   };
   if (ripple.mode == RippleMode::height)
     return std::make_shared<RaisedWater>(plane, picture, region, filtered(Waves::Quantity::height, amplitude, plane.height()));

@@ -132,3 +132,42 @@ static inline void raised_line(const struct raised_water* water, const float* he
   const float pull = w.pull + w.up_z * y;
   for (int i = 0; i < count; ++i) to_y[i] = y - raised_share(w, heights[i], below) * pull;
 }
+
+/// What MirrorWater knows. `pixels`: displacement for a slope of 1, far from the horizon.
+struct mirror_water {
+  float centre_x, centre_y, along_x, along_y;
+  float horizon, pixels, fade;
+  struct water_nodes right, away;
+};
+
+enum { mirror_rounds = 4 };
+
+/// MirrorWater::unmap (one round, backwards) and map (the fixed point), of picture points whose nodes are kept; the others
+/// stay and are marked in `left_out`.
+static inline void mirror_move(const struct mirror_water* water, int rounds, float sign, float* px, float* py, int count,
+                               int* left_out) {
+  const struct mirror_water w = *water;
+  float from_x[water_batch], from_y[water_batch], x[water_batch], y[water_batch];
+  int out[water_batch];
+  for (int i = 0; i < count; ++i) {
+    from_x[i] = x[i] = (px[i] - w.centre_x) * w.along_x + (py[i] - w.centre_y) * w.along_y;
+    from_y[i] = y[i] = (py[i] - w.centre_y) * w.along_x - (px[i] - w.centre_x) * w.along_y;
+    out[i] = 0;
+  }
+  for (int round = 0; round < rounds; ++round)
+    for (int i = 0; i < count; ++i) {
+      const float below = y[i] > w.horizon ? y[i] - w.horizon : 0;
+      const float scale = sign * w.pixels * below / (below + w.fade);
+      float down;
+      const float dx = scale * water_between(w.right, x[i], y[i], &down);
+      const float dy = -scale * water_between(w.away, x[i], y[i], &down);
+      out[i] |= (below > 0) & !water_inside(w.right, x[i], y[i]);
+      x[i] = from_x[i] + dx, y[i] = from_y[i] + dy;
+    }
+  for (int i = 0; i < count; ++i) {
+    const float moved = (float)!out[i], dx = (x[i] - from_x[i]) * moved, dy = (y[i] - from_y[i]) * moved;
+    px[i] += dx * w.along_x - dy * w.along_y;
+    py[i] += dx * w.along_y + dy * w.along_x;
+    left_out[i] = out[i];
+  }
+}

@@ -23,6 +23,9 @@ constexpr int strip = 2 * Ripmap::block;
 /// Lines by which the kept nodes grow until they hold all that is seen in the region.
 constexpr int growth = 32;
 
+/// Mode normal moves half as far at this distance below the horizon, of the picture's width.
+constexpr float mirror_fade = 0.02f;
+
 struct Box {
   double left, right, top, bottom;
 };
@@ -48,6 +51,18 @@ void for_each_level(const WaterPlane& plane, float* x, float* y, int count, cons
     move(level);
     const Point to = plane.picture(level);
     x[i] = static_cast<float>(to.x), y[i] = static_cast<float>(to.y);
+  }
+}
+
+/// The kernel for batches; what it leaves out, one by one.
+template <class Kernel, class One>
+void in_batches(const WaterPlane& plane, float* x, float* y, int count, const Kernel& kernel, const One& one) {
+  std::array<int, water_batch> left_out;
+  for (int first = 0; first < count; first += water_batch) {
+    const int batch = std::min<int>(water_batch, count - first);
+    kernel(x + first, y + first, batch, left_out.data());
+    for (int i = 0; i < batch; ++i)
+      if (left_out[i]) for_each_level(plane, x + first + i, y + first + i, 1, one);
   }
 }
 
@@ -180,28 +195,19 @@ void RaisedWater::unmap_level(Point& level) const {
     y = std::max(y, plane_.horizon());
     const double here = seen_at(y);
     if (here <= to.y) {
-      level = source(before > here ? y + (to.y - here) / (before - here) * (nearer - y) : y);
+      for (double low = y, at_low = here; nearer - low > 1e-3 && before > at_low;) {
+        y = low + (to.y - at_low) / (before - at_low) * (nearer - low);
+        const double at_y = seen_at(y);
+        if (std::abs(at_y - to.y) < 1e-3) break;
+        (at_y < to.y ? low : nearer) = y;
+        (at_y < to.y ? at_low : before) = at_y;
+      }
+      level = source(y);
       return;
     }
     before = here;
   }
 }
-
-namespace {
-
-/// The kernel for batches; what it leaves out, one by one.
-template <class Kernel, class One>
-void in_batches(const WaterPlane& plane, float* x, float* y, int count, const Kernel& kernel, const One& one) {
-  std::array<int, water_batch> left_out;
-  for (int first = 0; first < count; first += water_batch) {
-    const int batch = std::min<int>(water_batch, count - first);
-    kernel(x + first, y + first, batch, left_out.data());
-    for (int i = 0; i < batch; ++i)
-      if (left_out[i]) for_each_level(plane, x + first + i, y + first + i, 1, one);
-  }
-}
-
-}  // namespace
 
 void RaisedWater::map(float* x, float* y, int count) const {
   if (at_rest()) return;
@@ -222,41 +228,44 @@ MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect reg
     : plane_(plane),
       right_(std::move(slopes_right)),
       away_(std::move(slopes_away)),
-      pixels_(pixels_per_slope),
-      fade_(0.02 * picture.width),
       reach_(static_cast<float>(pixels_per_slope * std::hypot(right_.bound(), away_.bound()) * (1 + 1e-5))) {
   if (level_box(plane, {0, 0, picture.width, picture.height}).bottom <= plane.horizon()) reach_ = 0;
-  Box box = level_box(plane, region);
+  const Point centre = plane.picture({0, 0}), right = plane.picture({1, 0});
+  water_.centre_x = static_cast<float>(centre.x), water_.centre_y = static_cast<float>(centre.y);
+  water_.along_x = static_cast<float>(right.x - centre.x), water_.along_y = static_cast<float>(right.y - centre.y);
+  water_.horizon = static_cast<float>(plane.horizon());
+  water_.pixels = static_cast<float>(pixels_per_slope);
+  water_.fade = mirror_fade * static_cast<float>(picture.width);
+  water_.right = water_.away = no_nodes();
+  const Box box = level_box(plane, region);
   if (at_rest() || region.empty() || box.bottom <= plane.horizon()) return;
   for (FilteredWater* slopes : {&right_, &away_})
-    slopes->keep(slopes->column(box.left - reach_), slopes->column(box.right + reach_) + 1,
-                 slopes->line(std::max(plane.horizon(), box.top - reach_)), slopes->line(box.bottom + reach_) + 1);
+    slopes->keep(slopes->column(box.left - 1), slopes->column(box.right + 1) + 1,
+                 slopes->line(std::max(plane.horizon(), box.top - 1)), slopes->line(box.bottom + 1) + 1);
+  water_.right = right_.kept_nodes(), water_.away = away_.kept_nodes();
 }
 
 Point MirrorWater::displaced(Point level) const {
   const double below = std::max(0.0, level.y - plane_.horizon());
-  const double scale = pixels_ * below / (below + fade_);
+  const double scale = water_.pixels * below / (below + water_.fade);
   return {scale * right_.at(level), -scale * away_.at(level)};
 }
 
-void MirrorWater::map(float* x, float* y, int count) const {
+void MirrorWater::move(int rounds, float sign, float* x, float* y, int count) const {
   if (at_rest()) return;
-  for_each_level(plane_, x, y, count, [&](Point& level) {
-    const Point d = displaced(level);
-    level.x += d.x, level.y += d.y;
-  });
+  const auto kernel = has_avx2() ? mirror_move_avx2 : mirror_move;
+  in_batches(plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, rounds, sign, a, b, batch, out); },
+             [&](Point& level) {
+               const Point from = level;
+               for (int round = 0; round < rounds; ++round) {
+                 const Point d = displaced(level);
+                 level = {from.x + sign * d.x, from.y + sign * d.y};
+               }
+             });
 }
 
-void MirrorWater::unmap(float* x, float* y, int count) const {
-  constexpr int rounds = 3;
-  if (at_rest()) return;
-  for_each_level(plane_, x, y, count, [&](Point& level) {
-    const Point to = level;
-    for (int round = 0; round < rounds; ++round) {
-      const Point d = displaced(level);
-      level = {to.x - d.x, to.y - d.y};
-    }
-  });
-}
+void MirrorWater::map(float* x, float* y, int count) const { move(mirror_rounds, 1, x, y, count); }
+
+void MirrorWater::unmap(float* x, float* y, int count) const { move(1, -1, x, y, count); }
 
 }  // namespace stillwater

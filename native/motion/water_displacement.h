@@ -45,11 +45,12 @@ class RaisedWater final : public Displacement {
   Plane sources_;  ///< for nodes: y of what is seen there, minus the node's
 };
 
-/// Mode "normal": points are displaced by the slope of the water, as the mirror image on a tilted facet is: sideways by
-/// the slope to the right, up by the slope away. Close to the horizon, where a mirror image can't cross it, less.
+/// Mode "normal": the picture on the water is taken for a mirror image, which a facet shifts by its slope: sideways by the
+/// slope to the right, up by the slope away; less close to the horizon, which no mirror image crosses. The facet that does
+/// it is the one at the place where the image is seen, so unmap() is direct, and map() its inverse by a fixed point.
 class MirrorWater final : public Displacement {
  public:
-  /// `pixels_per_slope`: displacement for a slope of 1.
+  /// `region`, picture pixels: where it will mostly be asked. `pixels_per_slope`: displacement for a slope of 1.
   MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater slopes_right,
               FilteredWater slopes_away, double pixels_per_slope);
 
@@ -60,10 +61,11 @@ class MirrorWater final : public Displacement {
 
  private:
   Point displaced(Point level) const;
+  void move(int rounds, float sign, float* x, float* y, int count) const;
 
   WaterPlane plane_;
   FilteredWater right_, away_;
-  double pixels_, fade_;
+  mirror_water water_;
   float reach_;
 };
 

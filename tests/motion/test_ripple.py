@@ -60,13 +60,13 @@ def test_water_wholly_above_the_picture_s_bottom_edge_stands_still(horizon):
 
 
 def test_a_point_goes_to_where_the_plane_says_it_is_seen_when_raised():
-    """The tile is one wave number long and far below the pixels' limit; its height at the point comes from wave_heights."""
+    """The height there is the tile's, summed up wave by wave; close to the eye, where a pixel is far smaller than the waves."""
     size, horizon, wind = (640, 400), ((0, 90), (640, 130)), Wind(direction=30)
     plane = engine.WaterPlane(engine.View(horizon=horizon), size)
-    water = displacement(horizon, size, 5, wind, tile=60.0, resolution=64)
-    heights = stillwater.wave_heights(4 / 24, tile=60.0, resolution=64, wind=wind)
+    water = displacement(horizon, size, 5, wind, resolution=512)
+    heights = stillwater.wave_heights(4 / 24, resolution=512, wind=wind)
     spectrum = np.fft.fft2(heights) / heights.size
-    waves = np.fft.fftfreq(64) * 64 * 2 * np.pi / 60
+    waves = np.fft.fftfreq(512) * 512 * 2 * np.pi / 60
     for point in ((320.5, 380.5), (100.5, 300.5), (600.5, 390.5)):
         right, away = plane.ground(point)
         height = (spectrum * np.exp(1j * (waves[None, :] * right + waves[:, None] * away))).sum().real
@@ -87,9 +87,10 @@ def test_there_and_back(horizon, given):
     points = centres()
     there = water.map(points)
     assert np.abs(there - points).max() > 0.5
-    assert np.abs(water.map(water.unmap(points)) - points).max() < 0.05
-    hidden = np.abs(water.unmap(there) - points).max(-1) > 0.05
-    assert hidden.mean() < 0.01  # behind a crest
+    for back in (water.map(water.unmap(points)), water.unmap(there)):
+        missed = np.abs(back - points).max(-1)
+        assert np.quantile(missed, 0.95) < 0.01
+        assert (missed > 0.05).mean() < 0.01  # behind a crest, or in a pixel in which one ends
 
 
 def test_what_is_seen_is_the_nearest_of_the_points_that_come_to_a_place():
@@ -152,7 +153,7 @@ def test_no_wave_rises_above_the_eye():
 
 def test_amplitude_scales_and_nought_is_rest():
     one, two = (stillwater.ripple(SIZE, 3, HORIZON, amplitude=a, forward=True) for a in (0.1, 0.2))
-    assert np.abs(two - 2 * one).max() < 1e-3
+    assert np.abs(two - 2 * one).max() < 0.01 * np.abs(two).max()
     for still in (displacement(amplitude=0.0), displacement(wind=Wind(speed=0))):
         assert still.at_rest()
         assert not still.displacement_map(SIZE).any()
@@ -173,9 +174,10 @@ def test_a_loop_closes_to_the_byte():
 
 
 def test_a_wind_that_changes_does_not_make_the_water_jump():
-    frames = [stillwater.ripple(SIZE, 10, HORIZON, wind=Wind(speed=s, direction=d)) for s, d in ((5, 0), (5.01, 0), (5, 0.1))]
+    winds = ((5, 0), (5.01, 0), (5, 0.1))
+    frames = [stillwater.ripple(SIZE, 500, HORIZON, wind=Wind(speed=s, direction=d), **CALM) for s, d in winds]
     for other in frames[1:]:
-        assert 0 < np.abs(other - frames[0])[100:].max() < 0.2
+        assert 0 < np.abs(other - frames[0]).max() < 0.05 * np.abs(frames[0]).max()
 
 
 def test_gusts_raise_the_water_where_they_blow():
@@ -186,28 +188,27 @@ def test_gusts_raise_the_water_where_they_blow():
         assert uneven[y, x] / even[y, x] == pytest.approx(expected, rel=0.12)
 
 
-def energy(size, scale, frames, **given):
+def energy(scale, frames, **given):
     """Variance over time, by rows, of a noise picture that lies under the water, at `scale` x `scale` samples a pixel."""
-    noise = np.random.default_rng(1).standard_normal((size[1] * 4, size[0] * 4))
+    width, height, horizon = 200, 120, 40
+    noise = np.random.default_rng(1).standard_normal((height * 4, width * 4))
     fine = gaussian_filter(noise, 4).astype(np.float32)
-    fine /= fine.std()
     to = 4 // scale
-    picture = fine.reshape(size[1] * scale, to, size[0] * scale, to).mean((1, 3))
+    picture = fine.reshape(height * scale, to, width * scale, to).mean((1, 3))
     shown = []
     for frame in frames:
-        horizon = np.array(HORIZON) * scale * size[0] / SIZE[0]
-        offsets = stillwater.ripple((size[0] * scale, size[1] * scale), frame, horizon.tolist(), **given)
-        image = sampled(picture, offsets)
-        shown.append(image.reshape(size[1], scale, size[0], scale).mean((1, 3)))
-    return np.var(shown, axis=0).mean(1)
+        line = ((0, horizon * scale), (width * scale, horizon * scale))
+        image = sampled(picture, stillwater.ripple((width * scale, height * scale), frame, line, **given))
+        shown.append(image.reshape(height, scale, width, scale).mean((1, 3)))
+    return np.var(shown, axis=0).mean(1)[horizon:]
 
 
-@pytest.mark.parametrize("given", [{}, {"wind": Wind(direction=90)}, {"amplitude": 0.3}, {"resolution": 1024, "tile": 20.0}])
+@pytest.mark.parametrize("given", [{}, {"wind": Wind(direction=90)}, {"amplitude": 0.3}, {"resolution": 512, "tile": 10.0}])
 def test_near_the_horizon_the_water_is_no_busier_than_16_samples_a_pixel(given):
     frames = range(1, 400, 33)
-    ours, truth = (energy(SIZE, scale, frames, **given) for scale in (1, 4))
-    assert ours[60:80].mean() <= 1.2 * truth[60:80].mean()
-    for first, last in ((60, 80), (80, 110), (110, 199)):  # and does not die earlier than it should
+    ours, truth = (energy(scale, frames, **given) for scale in (1, 4))
+    assert ours[:20].mean() <= 1.2 * truth[:20].mean()
+    for first, last in ((0, 20), (20, 40), (40, 79)):  # and does not die earlier than it should
         assert ours[first:last].mean() >= 0.5 * truth[first:last].mean()
 
 
