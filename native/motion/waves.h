@@ -46,14 +46,14 @@ class Waves {
   const InverseFft2& at(double time, Quantity quantity = Quantity::height);
 
  private:
-  float* mode_row(int ky);
+  float* mode_column(int kx);
 
   WaveTile tile_;
   double speed_ = 0, direction_ = 0;
   int half_, stride_;
-  std::vector<double> turns_;                ///< omega / 2 pi of the quarter kx, ky >= 0
+  std::vector<double> turns_;                ///< omega / 2 pi of the quarter kx, ky >= 0, ky running
   std::vector<std::complex<float>> noise_;   ///< xi / sqrt 2, all n x n
-  std::vector<float> modes_;                 ///< four rows for each ky, see wave_modes() in waves_kernel.h
+  std::vector<float> modes_;                 ///< four columns for each kx, see wave_modes() in waves_kernel.h
   InverseFft2 transform_;
 };
 
