@@ -6,7 +6,6 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 
 from .. import engine
-from ..compositor import tree as node
 from . import job, open_recipe
 
 
@@ -62,11 +61,10 @@ class STILLWATER_OT_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         picture = context.scene.stillwater.active()
-        tree = node.find(picture.id) if picture else None
-        return tree is not None and job.running(tree)
+        return picture is not None and picture.tree is not None and job.running(picture.tree)
 
     def execute(self, context):
-        job.cancel(node.find(context.scene.stillwater.active().id))
+        job.cancel(context.scene.stillwater.active().tree)
         return {"FINISHED"}
 
 

@@ -47,10 +47,10 @@ class STILLWATER_OT_refresh(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         picture = context.scene.stillwater.active()
-        return picture is not None and tree.find(picture.id) is not None
+        return picture is not None and picture.tree is not None
 
     def execute(self, context):
-        shown = tree.find(context.scene.stillwater.active().id)
+        shown = context.scene.stillwater.active().tree
         found = tree.show(shown)
         if not found:
             self.report({"WARNING"}, f"{shown.stillwater.folder}: holds no frame {shown.stillwater.name}_0001.exr")

@@ -24,16 +24,9 @@ OUTPUTS = [
 ]
 
 
-def find(picture_id: str):
-    """The tree of the picture with this id, or None."""
-    trees = (tree for tree in bpy.data.node_groups if tree.bl_idname == "CompositorNodeTree" and tree.library is None)
-    return next((tree for tree in trees if picture_id and tree.stillwater.picture == picture_id), None)
-
-
 def ensure(scene, picture):
-    """The tree of `picture`, made where there is none."""
-    tree = find(picture.id)
-    if tree is None:
+    """The tree of `picture`, made where there is none. The picture keeps it alive where no compositor shows it."""
+    if picture.tree is None:
         tree = bpy.data.node_groups.new(f"Stillwater {picture.name}", "CompositorNodeTree")
         tree.stillwater.picture = picture.id
         tree.stillwater.scene = scene.name
@@ -42,7 +35,8 @@ def ensure(scene, picture):
         source, output = tree.nodes.new("CompositorNodeImage"), tree.nodes.new("NodeGroupOutput")
         source.name, source.label = "Frames", "Frames"
         output.location.x = source.location.x + 300
-    return tree
+        picture.tree = tree
+    return picture.tree
 
 
 def claim(scene, picture):
@@ -51,21 +45,19 @@ def claim(scene, picture):
     A copied scene holds a picture with the same id as the original's. When the copy is baked, it gets an id, a name, a
     tree and nodes of its own, so that the original's frames are not written over.
     """
-    theirs = find(picture.id)
     holders = [other.name for other in bpy.data.scenes if any(p.id == picture.id for p in other.stillwater.pictures)]
-    if theirs is None or theirs.stillwater.scene == scene.name or theirs.stillwater.scene not in holders:
-        tree = ensure(scene, picture)
-        tree.stillwater.scene = scene.name
-        return tree
+    owner = picture.tree.stillwater.scene if picture.tree else scene.name
+    if owner == scene.name or owner not in holders:
+        ensure(scene, picture).stillwater.scene = scene.name
+        return picture.tree
     versions.own_compositor_tree(scene)
     nodes = nodes_of(scene, picture.id)
-    picture.id = names.new_id()
+    picture.id, picture.tree = names.new_id(), None
     names.make_unique(picture, names.all_pictures())
-    ours = ensure(scene, picture)
     for node in nodes:
-        node.node_tree = ours
-        node.label = ours.name
-    return ours
+        node.node_tree = ensure(scene, picture)
+        node.label = node.node_tree.name
+    return ensure(scene, picture)
 
 
 def show(tree) -> list[int]:

@@ -101,6 +101,7 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     view: PointerProperty(type=STILLWATER_PG_view)
     output: PointerProperty(type=STILLWATER_PG_output)
     layers: CollectionProperty(type=STILLWATER_PG_layer)
+    tree: PointerProperty(type=bpy.types.NodeTree, options={"HIDDEN"})  # the node's (compositor/tree.py)
     active_layer: IntProperty(min=0, options={"HIDDEN"})
 
 

@@ -3,7 +3,6 @@
 import bpy
 
 from .. import engine
-from ..compositor import tree as node
 
 WIDTH = 42  # characters: a message is broken into lines of about so many
 
@@ -38,8 +37,7 @@ class _Main:
 
 
 def _draw_bake(layout, picture) -> None:
-    tree = node.find(picture.id)
-    state = tree.stillwater if tree else None
+    state = picture.tree.stillwater if picture.tree else None
     if state is not None and state.state == "running":
         row = layout.row(align=True)
         row.progress(factor=state.share, text=state.message)

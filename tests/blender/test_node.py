@@ -165,7 +165,7 @@ def test_one_tree_serves_all_nodes_of_a_picture(extension, scene, picture, baked
     for _ in range(3):
         bpy.ops.stillwater.add_node()
     nodes = extension.compositor.tree.nodes_of(scene, picture.id)
-    assert len(nodes) == 4 and baked[0].users == 4
+    assert len(nodes) == 4 and baked[0].users == 5  # the picture is one
     assert [output.name for output in nodes[0].outputs] == ["Image", "Alpha", "Flow", "Matte"]
 
 
