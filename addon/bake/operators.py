@@ -14,6 +14,7 @@ class STILLWATER_OT_bake(bpy.types.Operator):
 
     bl_idname = "stillwater.bake"
     bl_label = "Bake"
+    bl_options = {"UNDO"}  # so that undoing a later step does not take the new tree, and with it the bake, away
 
     fresh: BoolProperty(name="Fresh", description="Make every frame anew", options={"SKIP_SAVE"})
     wait: BoolProperty(

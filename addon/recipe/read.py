@@ -28,8 +28,9 @@ def fill_picture(picture, recipe: dict, locate: Locate, set_curve: SetCurve, add
     writer.fields(picture.wind, recipe["wind"])
     _view(picture.view, recipe["view"], writer)
     writer.fields(picture.output, recipe["output"])
-    layers = [add_layer(picture, layer["name"]) for layer in recipe["layers"]]
-    for layer, part in zip(layers, recipe["layers"], strict=True):
+    for part in recipe["layers"]:  # all before the first is filled: adding one moves the others in memory
+        add_layer(picture, part["name"])
+    for layer, part in zip(picture.layers, recipe["layers"], strict=True):
         _layer(layer, part, locate, writer)
 
 

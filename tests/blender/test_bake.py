@@ -164,13 +164,25 @@ def test_undo_during_a_bake_loses_nothing(extension, worker, state):
     worker("slow")
     bpy.ops.ed.undo_push(message="before")
     extension.bake.job.start(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
+    bpy.ops.ed.undo_push(message="bake")  # as the operator does
     bpy.context.scene.stillwater.pictures[0].wind.speed = 9
     bpy.ops.ed.undo_push(message="wind")
     until(extension, lambda: state().share > 0)
     bpy.ops.ed.undo()
     until(extension, lambda: not extension.bake.job._jobs)
-    tree = bpy.context.scene.stillwater.pictures[0].tree
-    assert tree is None or tree.stillwater.state == "done"
+    assert bpy.context.scene.stillwater.pictures[0].wind.speed == 5
+    assert (state().state, state().message) == ("done", "4 frames")
+
+
+def test_undoing_the_bake_itself_ends_the_worker(extension, worker):
+    worker("hang")
+    bpy.ops.ed.undo_push(message="before")
+    extension.bake.job.start(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
+    bpy.ops.ed.undo_push(message="bake")
+    process = next(iter(extension.bake.job._jobs.values()))[0]._process
+    bpy.ops.ed.undo()
+    until(extension, lambda: not extension.bake.job._jobs)
+    assert process.poll() is not None and bpy.context.scene.stillwater.pictures[0].tree is None
 
 
 def test_the_worker_ends_with_blender(tmp_path):
