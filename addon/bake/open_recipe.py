@@ -22,8 +22,8 @@ def open_recipe(scene, path: Path):
     refuse(recipe)
     folder = path.resolve().parent
     size = _size_of(folder / recipe["picture"])
-    if recipe["size"] is not None and list(size) != list(recipe["size"]):
-        raise ValueError(f"size: {recipe['size']} is not the picture's ({list(size)})")
+    if recipe["size"] is not None and size != tuple(recipe["size"]):
+        raise ValueError(f"size: {list(recipe['size'])} is not the picture's ({list(size)})")
 
     _set_up(scene, recipe, size)
     picture = arrange.add_picture(scene, path.stem if path.stem != "recipe" else folder.name)
