@@ -25,9 +25,9 @@ class Progress:
                 self.frames += 1
                 self.share = min(1.0, self.frames / max(of, 1))
                 self.message = f"Frame {frame}, {self.frames} of {of}"
-            case {"event": "warning", "message": str() as message}:
+            case {"event": "warning", "sentence": str() as message}:
                 self.warnings.append(message)
-            case {"event": "error", "message": str() as message}:
+            case {"event": "error", "sentence": str() as message}:
                 self.state, self.message = "failed", message
 
     def end(self, code: int, words: str) -> None:

@@ -24,18 +24,18 @@ first, last = recipe["frames"]
 folder = Path(recipe_file).parent / recipe["output"]["folder"]
 (folder.parent / "options.txt").write_text(" ".join(options))
 if mode == "refuse":
-    say(event="error", message="layers[0].motion.frequency: 0 is not above 0 (Hz)")
+    say(event="error", sentence="layers[0].motion.frequency: 0 is not above 0 (Hz)")
     sys.exit(2)
-say(event="started", frames=[first, last], folder=str(folder))
+say(event="started", first=first, last=last, of=last - first + 1, size=[16, 8], folder=str(folder))
 say(event="preparing", share=0.4, what="fill of all")
-say(event="warning", message="picture: 3 pixels are not numbers (read as 0)")
+say(event="warning", sentence="picture: 3 pixels are not numbers (read as 0)")
 folder.mkdir(parents=True, exist_ok=True)
 for frame in range(first, last + 1):
     if frame == last and mode == "crash":
         print("Segfault ahead", file=sys.stderr, flush=True)
         os.kill(os.getpid(), signal.SIGSEGV)
     if frame == last and mode == "give up":
-        say(event="error", message=f"{folder}: no space left")
+        say(event="error", sentence=f"{folder}: no space left")
         sys.exit(1)
     if frame == last and mode == "leave":
         sys.exit(3)
@@ -54,4 +54,4 @@ for frame in range(first, last + 1):
         sys.stdin.read()  # as with --parent: until whoever started it has gone
         time.sleep(0 if mode == "hang" else 60)
         sys.exit(0)
-say(event="done", frames=last - first + 1)
+say(event="done", rendered=last - first + 1, kept=0, seconds=0.04)
