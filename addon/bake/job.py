@@ -52,7 +52,7 @@ def start(scene, picture, fresh: bool = False):
     state.folder = places.locate_in(places.frames_of(picture))(".")
     state.name = picture.output.name
     state.first, state.last = scene.frame_start, scene.frame_end
-    _jobs[tree.session_uid] = Worker(command), Progress()
+    _jobs[tree.session_uid] = Worker(command, bpy.app.tempdir), Progress()
     _tell(tree, _jobs[tree.session_uid][1])
     if not bpy.app.timers.is_registered(tick):
         bpy.app.timers.register(tick, first_interval=INTERVAL)

@@ -37,7 +37,7 @@ class Progress:
         elif self.state == "failed":
             return
         elif code == 0:
-            self.state, self.share, self.message = "done", 1.0, _counted(self.frames)
+            self.state, self.share, self.message = "done", 1.0, f"Baked {_counted(self.frames)}"
         else:
             self.state, self.message = "failed", ending(code, words)
 

@@ -18,9 +18,9 @@ PATIENCE = 2.0  # s: how long a worker that was asked to end may take
 class Worker:
     """One `python -m stillwater render`."""
 
-    def __init__(self, command: list[str]):
-        """Starts `command`. Throws OSError where it can't be started."""
-        self._folder = Path(tempfile.mkdtemp(prefix="stillwater-"))
+    def __init__(self, command: list[str], scratch: str | None = None):
+        """Starts `command`; its lines go to files below the folder `scratch`. Throws OSError where it can't be started."""
+        self._folder = Path(tempfile.mkdtemp(prefix="stillwater-", dir=scratch))
         self._said = self._folder / "progress.jsonl"
         self._complained = self._folder / "errors.txt"
         self._rest = b""

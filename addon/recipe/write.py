@@ -49,16 +49,21 @@ def _value(group, name: str, animation: Animation):
     value, kind = getattr(group, name), group.bl_rna.properties[name]
     if kind.type != "FLOAT":
         return value
-    path = f"{group.path_from_id()}.{name}"
     numbers = list(value) if kind.is_array else [value]
-    columns = [animation.values(path, i) if kind.is_animatable else None for i in range(len(numbers))]
-    if any(columns):
-        within = lambda v: plain(min(max(v, kind.hard_min), kind.hard_max), kind.subtype)  # noqa: E731
-        filled = [column or [number] * len(animation.frames) for column, number in zip(columns, numbers, strict=True)]
-        rows = [[within(v) for v in row] for row in zip(*filled, strict=True)]
-        return over_time(rows if kind.is_array else [row[0] for row in rows], animation.frames.start)
-    numbers = [plain(number, kind.subtype) for number in numbers]
-    return numbers if kind.is_array else numbers[0]
+    rows = _rows(group, name, numbers, animation) if kind.is_animatable else [numbers]
+    limited = [[min(max(v, kind.hard_min), kind.hard_max) for v in row] for row in rows]
+    written = [[plain(v, kind.subtype) for v in row] for row in limited]
+    return over_time(written if kind.is_array else [row[0] for row in written], animation.frames.start)
+
+
+def _rows(group, name: str, numbers: list[float], animation: Animation) -> list:
+    """The numbers of one property for each frame, or once where nothing animates them; a part may be animated alone."""
+    path = f"{group.path_from_id()}.{name}"
+    columns = [animation.values(path, i) for i in range(len(numbers))]
+    if not any(columns):
+        return [numbers]
+    still = [[number] * len(animation.frames) for number in numbers]
+    return list(zip(*(column or held for column, held in zip(columns, still, strict=True)), strict=True))
 
 
 def _line(group, start: str, end: str) -> list:

@@ -12,7 +12,13 @@ class _Sidebar:
     bl_region_type = "UI"
 
 
-class _Main:
+    @classmethod
+    def poll(cls, context):
+        """In node editors only where they show a compositor."""
+        return getattr(context.space_data, "tree_type", "CompositorNodeTree") == "CompositorNodeTree"
+
+
+class _Main(_Sidebar):
     bl_label = "Stillwater"
 
     def draw(self, context):
@@ -64,12 +70,12 @@ def _say(layout, sentence: str, icon: str) -> None:
     column.label(text=line, icon=icon)
 
 
-class _OfPicture:
+class _OfPicture(_Sidebar):
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context):
-        return context.scene.stillwater.active() is not None
+        return super().poll(context) and context.scene.stillwater.active() is not None
 
 
 class _Layers(_OfPicture):
@@ -153,7 +159,7 @@ def _panels(space: str) -> list[type]:
     return [
         type(
             parent + name,
-            (part, _Sidebar, bpy.types.Panel),
+            (part, bpy.types.Panel),
             {"bl_space_type": space, **({"bl_parent_id": parent} if name else {})},
         )
         for name, part in parts.items()

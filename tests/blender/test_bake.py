@@ -52,7 +52,7 @@ def until(extension, condition, seconds=10):
 def test_a_bake_writes_the_recipe_and_shows_the_frames(extension, scene, saved, worker, state, tmp_path):
     frames = worker("plain")
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
-    assert (state().state, state().share, state().message) == ("done", 1, "4 frames")
+    assert (state().state, state().share, state().message) == ("done", 1, "Baked 4 frames")
     assert state().warning == "picture: 3 pixels are not numbers (read as 0)"
     assert json.loads((saved / "recipe.json").read_text())["frames"] == [5, 8]
     assert sorted(path.name for path in saved.iterdir()) == ["frames", "options.txt", "recipe.json"]
@@ -112,7 +112,7 @@ def test_frames_made_before_a_failure_are_shown(extension, scene, worker, state,
 def test_lines_that_are_no_events_do_no_harm(worker, state):
     worker("garbage")
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
-    assert (state().state, state().message) == ("done", "4 frames")
+    assert (state().state, state().message) == ("done", "Baked 4 frames")
 
 
 @pytest.mark.parametrize("mode", ["hang", "deaf"])
@@ -171,7 +171,7 @@ def test_undo_during_a_bake_loses_nothing(extension, worker, state):
     bpy.ops.ed.undo()
     until(extension, lambda: not extension.bake.job._jobs)
     assert bpy.context.scene.stillwater.pictures[0].wind.speed == 5
-    assert (state().state, state().message) == ("done", "4 frames")
+    assert (state().state, state().message) == ("done", "Baked 4 frames")
 
 
 def test_undoing_the_bake_itself_ends_the_worker(extension, worker):

@@ -1,5 +1,7 @@
 """Panels show what there is, in both editors, and change nothing."""
 
+from types import SimpleNamespace
+
 import bpy
 import pytest
 from panels import draw
@@ -22,6 +24,12 @@ def test_an_empty_scene_offers_a_picture(scene, panel, editor):
     shown = panel(editor)
     assert shown["operators"] == ["stillwater.add_picture", "stillwater.load_recipe"]
     assert shown["texts"][0].startswith("Engine ")
+
+
+@pytest.mark.parametrize("tree, shown", [("CompositorNodeTree", True), ("ShaderNodeTree", False)])
+def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, tree, shown):
+    editor = SimpleNamespace(scene=scene, space_data=SimpleNamespace(tree_type=tree))
+    assert {cls.poll(editor) for cls in extension.ui.panels.CLASSES} == {shown}
 
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])
