@@ -86,8 +86,8 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as scratch:
         source = Path(scratch, "stillwater")
         stage(source, wheels_in(arguments.wheels))
-        command = [*build_command(arguments.blender), "--source-dir", str(source), "--output-dir", str(arguments.output)]
-        return subprocess.run(command, timeout=300).returncode
+        folders = ["--source-dir", str(source), "--output-dir", str(arguments.output)]
+        return subprocess.run([*build_command(arguments.blender), *folders], timeout=300).returncode
 
 
 if __name__ == "__main__":

@@ -11,7 +11,11 @@ _engine = None
 _problem = "the engine was not looked for yet"
 
 # -I: nothing of the user's own Python gets in. The engine's folder comes first, Blender's own modules after it.
-_START = "import sys, runpy; sys.path.insert(0, {site!r}); runpy.run_module('stillwater', run_name='__main__', alter_sys=True)"
+_START = """
+import sys, runpy
+sys.path.insert(0, {site!r})
+runpy.run_module("stillwater", run_name="__main__", alter_sys=True)
+"""
 
 
 def load() -> None:

@@ -44,7 +44,7 @@ def output_socket(tree):
 
 
 def channelbags(data) -> list:
-    """The collections of F-curves that move a datablock, given its animation data: those of its action and its strips."""
+    """The collections of F-curves that move a datablock, given its animation data: its action's and its strips'."""
     strips = [strip for track in data.nla_tracks for strip in track.strips]
     used = [(data.action, data.action_slot), *((strip.action, strip.action_slot) for strip in strips)]
     return [bag.fcurves for action, slot in used if (bag := _channelbag(action, slot)) is not None]
@@ -68,7 +68,7 @@ def _channelbag(action, slot):
     return strips[0].channelbag(slot) if strips else None
 
 
-def set_curve(datablock, path: str, index: int, points: list[tuple[float, float]], interpolation: str = "LINEAR") -> None:
+def set_curve(datablock, path: str, index: int, points: list[tuple], interpolation: str = "LINEAR") -> None:
     """Replaces the F-curve of a property of `datablock`: `points` are (frame, value)."""
     data = datablock.animation_data or datablock.animation_data_create()
     if data.action is None:

@@ -47,7 +47,8 @@ def start(scene, picture, fresh: bool = False):
     tree = node.claim(scene, picture)
     if tree.session_uid in _jobs:
         raise ValueError(f"{picture.name}: is being baked already")
-    command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent", *(["--fresh"] if fresh else [])]
+    command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent"]
+    command += ["--fresh"] if fresh else []
     state = tree.stillwater
     state.folder = places.locate_in(places.frames_of(picture))(".")
     state.name = picture.output.name

@@ -15,8 +15,8 @@ from . import places
 def open_recipe(scene, path: Path):
     """Adds the recipe's picture to `scene` and returns it. Throws ValueError and OSError with a sentence.
 
-    The scene gets the picture's size, frames and frame rate, the view transform that changes no colour, and a node whose
-    Image is what renders show.
+    The scene gets the picture's size, frames and frame rate, the view transform that changes no colour, and a node
+    whose Image is what renders show.
     """
     recipe = engine.read_recipe(str(path))
     refuse(recipe)

@@ -19,7 +19,7 @@ class Worker:
     """One `python -m stillwater render`."""
 
     def __init__(self, command: list[str], scratch: str | None = None):
-        """Starts `command`; its lines go to files below the folder `scratch`. Throws OSError where it can't be started."""
+        """Starts `command`; its lines go to files below `scratch`. Throws OSError where it can't be started."""
         self._folder = Path(tempfile.mkdtemp(prefix="stillwater-", dir=scratch))
         self._said = self._folder / "progress.jsonl"
         self._complained = self._folder / "errors.txt"

@@ -18,7 +18,7 @@ def path_of(folder: Path, name: str, frame: int) -> Path:
 def offsets(first: int, last: int, frames: list[int]) -> list[tuple[int, int]]:
     """Where an image sequence's frame_offset has to change, so that a missing frame shows the nearest one.
 
-    A list of (frame, offset from there on); one entry where nothing is missing. Of two frames as near the earlier counts.
+    A list of (frame, offset from there on); one entry where nothing is missing. Of two as near the earlier counts.
     """
     changes: list[tuple[int, int]] = []
     for frame in range(first, last + 1):

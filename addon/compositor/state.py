@@ -3,13 +3,15 @@
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from ..properties import names
+
 
 class STILLWATER_PG_frames(bpy.types.PropertyGroup):
     """On the node tree, so that the node shows the same in a scene that was copied or a file that appended it."""
 
     picture: StringProperty(options={"HIDDEN"})  # the picture's permanent id; empty: not a tree of ours
     scene: StringProperty(options={"HIDDEN"})  # name of the scene whose picture it is, where a copy has the same ids
-    folder: StringProperty(name="Frames", description="Folder of the frames", subtype="DIR_PATH", options={"PATH_SUPPORTS_BLEND_RELATIVE"})
+    folder: StringProperty(name="Frames", description="Folder of the frames", subtype="DIR_PATH", options=names.PATH)
     name: StringProperty(name="Name", description="Frames are NAME_0001.exr", default="frame", options=set())
     first: IntProperty(name="First", description="First frame of the last bake", default=1, options=set())
     last: IntProperty(name="Last", description="Last frame of the last bake", default=1, options=set())

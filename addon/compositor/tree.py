@@ -2,8 +2,8 @@
 
     Image node (EXR sequence) -> group output: Image, Alpha, Flow, Matte
 
-One tree for each picture, shared by all its nodes. Nothing here is a class of ours, so a file renders the same where the
-extension is disabled.
+One tree for each picture, shared by all its nodes. Nothing here is a class of ours, so a file renders the same where
+the extension is disabled.
 """
 
 from pathlib import Path
@@ -63,7 +63,7 @@ def claim(scene, picture):
 def show(tree) -> list[int]:
     """Points the tree at what lies in its folder now; returns the frames found.
 
-    A frame missing between `first` and `last` shows the nearest that is there. Without any frame the node gives nothing.
+    A frame missing between `first` and `last` shows the nearest that is there. Without any the node gives nothing.
     """
     state, source = tree.stillwater, tree.nodes["Frames"]
     folder = Path(bpy.path.abspath(state.folder))
@@ -85,24 +85,20 @@ def show(tree) -> list[int]:
 
 def _point(source, path: Path, name: str) -> None:
     """Makes the Image node read the sequence that `path` is a file of, as it is on disk now."""
+    if source.image is None:
+        source.image = bpy.data.images.load(str(path))
+        source.image.name, source.image.source = name, "SEQUENCE"
     image = source.image
-    if image is None:
-        image = bpy.data.images.load(str(path))
-        image.name = name
-        image.source = "SEQUENCE"
-        source.image = image
-    elif Path(bpy.path.abspath(image.filepath)) != path:
-        image.filepath = str(path)
-    if bpy.data.filepath:
-        image.filepath = bpy.path.relpath(str(path)) if _same_drive(path) else str(path)
+    image.filepath = bpy.path.relpath(str(path)) if _can_be_relative(path) else str(path)
     source.layer = LAYER
     # Both: either alone leaves a stale picture in renders or in the backdrop.
     image.reload()
     image.update_tag()
 
 
-def _same_drive(path: Path) -> bool:
-    return path.drive == Path(bpy.data.filepath).drive
+def _can_be_relative(path: Path) -> bool:
+    """In a saved file, and on its drive."""
+    return bool(bpy.data.filepath) and path.drive == Path(bpy.data.filepath).drive
 
 
 def _hold(tree, changes: list[tuple[int, int]]) -> None:

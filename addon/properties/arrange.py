@@ -35,7 +35,8 @@ def remove_layer(picture, index: int) -> None:
     """Removes a layer, its keys and its drivers."""
     count = len(picture.layers)
     picture.layers.remove(index)
-    _renumber(picture.id_data, f"{picture.path_from_id()}.layers", {i: i - (i > index) for i in range(count) if i != index})
+    places = {i: i - (i > index) for i in range(count) if i != index}
+    _renumber(picture.id_data, f"{picture.path_from_id()}.layers", places)
 
 
 def remove_picture(scene, index: int) -> None:

@@ -20,7 +20,8 @@ class STILLWATER_PG_matte(bpy.types.PropertyGroup):
     )
     file: StringProperty(name="File", description="Image with the matte", subtype="FILE_PATH", options=names.PATH)
     channel: StringProperty(
-        name="Channel", description="Of the image, where it has it; else its grey", default="A", maxlen=255, options=set()
+        name="Channel", description="Of the image, where it has it; else its grey",
+        default="A", maxlen=255, options=set(),
     )
     labels: StringProperty(name="Labels", description="Label map", subtype="FILE_PATH", options=names.PATH)
     value: IntProperty(name="Value", description="Label of this layer", default=1, min=0, soft_max=255, options=set())

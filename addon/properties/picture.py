@@ -48,7 +48,8 @@ class STILLWATER_PG_view(bpy.types.PropertyGroup):
     horizon_end: place("End", "Another point of the horizon; may lie outside the picture")
     fov: FloatProperty(
         name="Field of View", description="Horizontal [degrees]", subtype="ANGLE",
-        default=radians(50), min=radians(5), max=radians(150), soft_min=radians(20), soft_max=radians(100), options=set(),
+        default=radians(50), min=radians(5), max=radians(150), soft_min=radians(20), soft_max=radians(100),
+        options=set(),
     )
     height: FloatProperty(
         name="Eye Height", description="Of the eye over the water [m]",
@@ -62,7 +63,9 @@ class STILLWATER_PG_output(bpy.types.PropertyGroup):
     folder: StringProperty(
         name="Folder", description="Of the frames, relative to the recipe's folder", default="frames", options=set()
     )
-    name: StringProperty(name="Name", description="Frames are NAME_0001.exr", default="frame", maxlen=200, options=set())
+    name: StringProperty(
+        name="Name", description="Frames are NAME_0001.exr", default="frame", maxlen=200, options=set()
+    )
     depth: EnumProperty(
         name="Depth", description="Of the colour and matte channels", default="half", options=set(),
         items=[("half", "Half", "16 bit: enough for 8-bit pictures"), ("float", "Float", "32 bit")],

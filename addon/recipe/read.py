@@ -1,7 +1,7 @@
 """From a recipe to a picture's properties: write.py the other way round.
 
-Takes a recipe that the engine has checked and filled with its defaults (engine.read_recipe). What the properties have no
-place for is refused, never dropped.
+Takes a recipe that the engine has checked and filled with its defaults (engine.read_recipe). What the properties have
+no place for is refused, never dropped.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,7 @@ class NoPlace(ValueError):
 
 
 def fill_picture(picture, recipe: dict, locate: Locate, set_curve: SetCurve, add_layer) -> None:
-    """Fills a new, empty picture. `add_layer(picture, name)` makes a layer. Throws NoPlace before anything is changed."""
+    """Fills a new picture. `add_layer(picture, name)` makes a layer. Throws NoPlace before anything is changed."""
     refuse(recipe)
     writer = _Writer(set_curve)
     picture.picture = locate(recipe["picture"])
@@ -47,7 +47,7 @@ def refuse(recipe: dict) -> None:
             raise NoPlace(f'{place}.motion.type: "{motion["type"]}" can\'t be opened in Blender yet')
         plain_fill = {"method": "exemplar", "patch": 9, "radius": None, "grow": 2.0, "source": None, "touch_up": []}
         if fill.get("method") == "exemplar" and {**plain_fill, **fill} != plain_fill:
-            raise NoPlace(f"{place}.fill: only an exemplar fill without numbers of its own can be opened in Blender yet")
+            raise NoPlace(f"{place}.fill: numbers of an exemplar fill can't be opened in Blender yet")
         seeds[f"{place}.motion.seed"] = motion.get("seed")
     for place, seed in seeds.items():
         if seed is not None and seed > WIDEST:

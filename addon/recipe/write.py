@@ -1,7 +1,7 @@
 """From a picture's properties to its recipe.
 
-Properties have the names of the recipe's fields, so most groups are written field by field; what Blender keeps in another
-form (points, the horizon, layers by id) has a function of its own here.
+Properties have the names of the recipe's fields, so most groups are written field by field; what Blender keeps in
+another form (points, the horizon, layers by id) has a function of its own here.
 """
 
 from collections.abc import Callable
@@ -30,7 +30,7 @@ def recipe_of(scene, picture, animation: Animation, locate: Locate) -> dict:
 
 
 def frames_to_sample(first: int, last: int) -> range:
-    """The frames at which animated numbers are asked for: rates are summed from frame 1, and the flow looks one ahead."""
+    """Where animated numbers are asked for: rates are summed from frame 1, and the flow looks one frame ahead."""
     return range(min(1, first), max(1, last) + 2)
 
 

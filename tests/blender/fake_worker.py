@@ -40,7 +40,7 @@ for frame in range(first, last + 1):
     if frame == last and mode == "leave":
         sys.exit(3)
     if mode == "garbage":
-        print('not JSON {"event": \n[1, 2]\n"text"\n{"event": 7}\n{"event": "new kind"}\n{"event": "frame"}', flush=True)
+        print('not JSON {"event": \n[1, 2]\n"text"\n{"event": 7}\n{"event": "new"}\n{"event": "frame"}', flush=True)
         sys.stdout.buffer.write(b"\xff\xfe\n")
     name = f"{recipe['output']['name']}_{frame:04d}.exr"
     shutil.copy(Path(source) / name, folder / name)

@@ -10,7 +10,8 @@ bpy.utils.expose_bundled_modules()
 import OpenImageIO as oiio  # noqa: E402  Blender's own
 
 PACKAGE = "bl_ext.user_default.stillwater"
-CHANNELS = [*(f"Stillwater.Combined.{c}" for c in "RGBA"), *(f"Stillwater.Flow.{c}" for c in "XYZ"), "Stillwater.Matte.V"]
+PASSES = {"Combined": "RGBA", "Flow": "XYZ", "Matte": "V"}
+CHANNELS = [f"Stillwater.{name}.{part}" for name, parts in PASSES.items() for part in parts]
 KINDS = {"Image": "RGBA", "Alpha": "FLOAT", "Flow": "VECTOR", "Matte": "FLOAT"}
 WIDTH, HEIGHT = 16, 8
 
@@ -35,9 +36,12 @@ def read_frame(path: Path) -> dict[str, np.ndarray]:
     """A frame's file, under the names of the node's outputs."""
     image = oiio.ImageBuf(str(path))
     pixels, names = image.get_pixels("float"), image.spec().channelnames
-    picked = {name: pixels[..., [names.index(channel)]] for channel in CHANNELS if (name := channel) in names}
-    join = lambda layer, parts: np.concatenate([picked[f"Stillwater.{layer}.{c}"] for c in parts], -1)  # noqa: E731
-    return {"Image": join("Combined", "RGBA"), "Alpha": join("Combined", "A"), "Flow": join("Flow", "XYZ"), "Matte": join("Matte", "V")}
+    passes = {"Image": ("Combined", "RGBA"), "Alpha": ("Combined", "A"), "Flow": ("Flow", "XYZ")}
+    passes["Matte"] = ("Matte", "V")
+    return {
+        output: np.stack([pixels[..., names.index(f"Stillwater.{name}.{part}")] for part in parts], -1)
+        for output, (name, parts) in passes.items()
+    }
 
 
 def _file_output(tree, folder: Path):

@@ -19,7 +19,8 @@ def whole() -> dict:
         "fps": 23.976,
         "seed": 12,
         "loop": True,
-        "wind": {"speed": keyed(3, 4.5, 7), "direction": keyed(10, 20, 35.5), "gusts": 0.3, "gust_size": 0.4, "seed": 5},
+        "wind": {"speed": keyed(3, 4.5, 7), "direction": keyed(10, 20, 35.5), "gusts": 0.3,
+                 "gust_size": 0.4, "seed": 5},
         "view": {"horizon": [[-10.5, 4], [30, 6.25]], "fov": 65, "height": 2.6},
         "layers": [
             {

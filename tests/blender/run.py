@@ -35,7 +35,7 @@ def run_here(zip_file: Path, file: Path, report: Path, options: list[str]) -> No
 
 
 def run_apart(arguments, file: Path, report: Path) -> list[xml.Element]:
-    """Runs one file in a process of its own; returns its test cases, one that failed where it ended without a report."""
+    """Runs one file in a process of its own; returns its test cases, a failed one where it ended without a report."""
     command = [sys.executable, str(Path(__file__)), "--zip", str(arguments.zip), f"--junitxml={report}"]
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="stillwater-profile-", ignore_cleanup_errors=True) as profile:

@@ -76,7 +76,7 @@ PATCH = {"name": "a", "fill": {"method": "exemplar", "patch": 11}}
         ({"picture": "none.png"}, "none.png"),
         ({"picture": "recipe.json"}, "recipe.json"),
         ({"seed": 2**40}, r"seed: 1099511627776 is above what Blender can hold \(2147483647\)"),
-        ({"layers": [PATCH]}, "layers.0..fill: only an exemplar fill without numbers of its own"),
+        ({"layers": [PATCH]}, "layers.0..fill: numbers of an exemplar fill"),
         ({"layers": [LASSO]}, "matte"),
         ({"layers": [FLOW]}, 'motion.type: "flow"'),
         ({"picture": None, "size": [32, 16]}, "picture: missing"),

@@ -14,7 +14,8 @@ def panel(extension):
     def show(name="STILLWATER_PT_view_3d"):
         panels = [cls for cls in extension.ui.panels.CLASSES if cls.__name__.startswith(name)]
         shown = [draw(cls) for cls in panels if not hasattr(cls, "poll") or cls.poll(bpy.context)]
-        return {kind: [x for part in shown for x in getattr(part, kind)] for kind in ("texts", "properties", "operators")}
+        kinds = ("texts", "properties", "operators")
+        return {kind: [entry for part in shown for entry in getattr(part, kind)] for kind in kinds}
 
     return show
 
@@ -41,7 +42,10 @@ def test_every_number_of_a_motion_is_shown(scene, picture, panel, motion):
     assert set(wanted) <= set(shown) and "speed" in shown and "fov" in shown and "compression" in shown
 
 
-@pytest.mark.parametrize("form, names", [("none", set()), ("file", {"file", "channel"}), ("labels", {"labels", "value"})])
+FORMS = {"none": set(), "file": {"file", "channel"}, "labels": {"labels", "value"}}
+
+
+@pytest.mark.parametrize("form, names", FORMS.items())
 def test_a_matte_shows_what_its_form_needs(picture, panel, form, names):
     picture.layers[0].matte.form = form
     shown = set(panel()["properties"]) & {"file", "channel", "labels", "value"}

@@ -10,8 +10,10 @@ CLASSES = (bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.typ
 
 def traces():
     """What of ours Blender knows."""
-    classes = {cls.__name__ for kind in CLASSES for cls in kind.__subclasses__() if "STILLWATER" in cls.__name__ and cls.is_registered}
-    handlers = [h for name in dir(bpy.app.handlers) for h in _list(getattr(bpy.app.handlers, name)) if PACKAGE in h.__module__]
+    ours = [cls for kind in CLASSES for cls in kind.__subclasses__() if "STILLWATER" in cls.__name__]
+    classes = {cls.__name__ for cls in ours if cls.is_registered}
+    lists = [_list(getattr(bpy.app.handlers, name)) for name in dir(bpy.app.handlers)]
+    handlers = [handler for listed in lists for handler in listed if PACKAGE in handler.__module__]
     menus = [draw for draw in bpy.types.NODE_MT_compositor_node_add_all.draw._draw_funcs if PACKAGE in draw.__module__]
     properties = [cls for cls in (bpy.types.Scene, bpy.types.CompositorNodeTree) if hasattr(cls, "stillwater")]
     return classes, handlers, menus, properties
