@@ -48,7 +48,7 @@ py::array_t<float> displace_array(const FloatArray& image, const FloatArray& map
   const Rgba picture = as_image<cv::Vec4f>(image, "image");
   const Field where = as_image<cv::Vec2f>(map, "map");
   const py::gil_scoped_release release;
-  const Rgba displaced = displace(picture, where, {wraps_x, wraps_y});
+  const Rgba displaced = displace(picture, where, {.wraps = wraps_x}, {.wraps = wraps_y});
   const py::gil_scoped_acquire acquire;
   return as_array(displaced);
 }
@@ -64,7 +64,7 @@ void displace_over_array(const Source& image, const FloatArray& map, ExactArray&
   displace_over(image, where, under);
 }
 
-Source source_of(const FloatArray& image) { return Source(as_image<cv::Vec4f>(image, "image"), {}); }
+Source source_of(const FloatArray& image) { return Source(as_image<cv::Vec4f>(image, "image")); }
 
 }  // namespace
 

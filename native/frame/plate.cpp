@@ -51,12 +51,18 @@ LayerImage at_plate_scale(const LayerImage& layer, cv::Size picture, double scal
   return pixel;
 }
 
-Plate as_plate(const LayerImage& scaled, double output_scale, Endless endless) {
+// At the picture's border a layer goes on, mirrored; elsewhere it ends.
+Plate as_plate(const LayerImage& scaled, cv::Size picture, double output_scale, Endless endless) {
   const Rgba& pixels = scaled.pixels;
+  const cv::Rect& box = scaled.box;
+  const double scale = std::min(1.0, output_scale);
+  const cv::Size whole(scaled_side(picture.width, scale), scaled_side(picture.height, scale));
+  const Beyond across{endless.x, box.x == 0, box.br().x >= whole.width};
+  const Beyond down{endless.y, box.y == 0, box.br().y >= whole.height};
   Plate plate;
-  plate.source = Source(endless.x || endless.y ? make_cyclic(pixels, endless.x, endless.y) : pixels, {endless.x, endless.y});
+  plate.source = Source(endless.x || endless.y ? make_cyclic(pixels, endless.x, endless.y) : pixels, across, down);
   plate.origin = {static_cast<double>(scaled.box.x), static_cast<double>(scaled.box.y)};
-  plate.scale = std::min(1.0, output_scale);
+  plate.scale = scale;
   plate.output_scale = output_scale;
   return plate;
 }
@@ -65,7 +71,7 @@ Plate as_plate(const LayerImage& scaled, double output_scale, Endless endless) {
 
 Plate make_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless) {
   if (layer.box.empty()) return {};
-  return as_plate(at_plate_scale(layer, picture, std::min(1.0, output_scale), endless), output_scale, endless);
+  return as_plate(at_plate_scale(layer, picture, std::min(1.0, output_scale), endless), picture, output_scale, endless);
 }
 
 Plate make_mean_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless) {
@@ -74,7 +80,7 @@ Plate make_mean_plate(const LayerImage& layer, cv::Size picture, double output_s
   const double sigma = std::max(1.0, mean_sigma * picture.width * std::min(1.0, output_scale));
   Rgba blurred;
   cv::GaussianBlur(scaled.pixels, blurred, cv::Size(), sigma, sigma, cv::BORDER_REPLICATE);
-  return as_plate({blurred, scaled.box}, output_scale, endless);
+  return as_plate({blurred, scaled.box}, picture, output_scale, endless);
 }
 
 Point plate_period(cv::Size picture, double output_scale) {

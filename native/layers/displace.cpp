@@ -35,11 +35,11 @@ void each_run(const Source& image, const Field& map, const Work& work) {
 
 }  // namespace
 
-Rgba displace(const Rgba& image, const Field& map, Beyond beyond) {
+Rgba displace(const Rgba& image, const Field& map, Beyond across, Beyond down) {
   check::not_empty("image", image);
   check::not_empty("map", map);
   Rgba displaced(map.size());
-  each_run(Source(image, beyond), map, [&](int y, int x, const cv::Vec4f* colours, int count) {
+  each_run(Source(image, across, down), map, [&](int y, int x, const cv::Vec4f* colours, int count) {
     std::copy_n(colours, count, displaced[y] + x);
   });
   return displaced;

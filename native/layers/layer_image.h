@@ -5,7 +5,7 @@
 namespace stillwater {
 
 /// One layer as it was cut out of the picture: premultiplied colour and coverage in `box`, nothing outside of it.
-/// Where the box ends at the border of the picture, the layer is thought to go on (its edge repeats).
+/// Where the box ends at the border of the picture, the layer is thought to go on (as its mirror image).
 ///
 ///     picture +--------------------+
 ///             |     box +------+   |

@@ -29,7 +29,7 @@ void sample_plain(const float* origin, std::ptrdiff_t stride, const float* x, co
   }
 }
 
-// Into [-1, size]: beyond that the repeated edge has the same colour everywhere. NaN becomes -1.
+// Into [-1, size]. NaN becomes -1.
 void hold(float* at, int count, int size) {
   const float last = static_cast<float>(size);
   for (int i = 0; i < count; ++i) {
@@ -38,11 +38,27 @@ void hold(float* at, int count, int size) {
   }
 }
 
+void fold(float* at, int count, int size, bool low, bool high) {
+  const float first = low ? -0.5f : -1e30f, last = high ? static_cast<float>(size) - 0.5f : 1e30f;
+  const float twice_last = 2 * static_cast<float>(size) - 1;
+  for (int i = 0; i < count; ++i) {
+    const float folded = at[i] < first ? -1.0f - at[i] : at[i];
+    at[i] = folded > last ? twice_last - folded : folded;
+  }
+}
+
 void wrap(float* at, int count, int size) {
   const float period = static_cast<float>(size);
   for (int i = 0; i < count; ++i) at[i] -= period * std::floor(at[i] / period);
+}
+
+void bring_inside(float* at, int count, int size, const Beyond& beyond) {
+  if (beyond.wraps) wrap(at, count, size);
+  else fold(at, count, size, beyond.mirror_low, beyond.mirror_high);
   hold(at, count, size);
 }
+
+int border_of(const Beyond& beyond) { return beyond.wraps ? cv::BORDER_WRAP : cv::BORDER_REFLECT; }
 
 struct Range {
   float low, high;
@@ -59,11 +75,12 @@ Range range(const float* at, int count) {
 
 }  // namespace
 
-Source::Source(const Rgba& image, Beyond beyond) : beyond_(beyond), width_(image.cols), height_(image.rows) {
+Source::Source(const Rgba& image, Beyond across, Beyond down)
+    : across_(across), down_(down), width_(image.cols), height_(image.rows) {
   if (empty()) return;
   Rgba wide;
-  cv::copyMakeBorder(image, wide, 0, 0, frame, frame, beyond.wraps_x ? cv::BORDER_WRAP : cv::BORDER_REPLICATE);
-  cv::copyMakeBorder(wide, padded_, frame, frame, 0, 0, beyond.wraps_y ? cv::BORDER_WRAP : cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(image, wide, 0, 0, frame, frame, border_of(across));
+  cv::copyMakeBorder(wide, padded_, frame, frame, 0, 0, border_of(down));
   map_coverage();
 }
 
@@ -78,7 +95,7 @@ void Source::map_coverage() {
 
 bool Source::is_clear(const cv::Rect& area) const {
   if (empty()) return true;
-  if (beyond_.wraps_x || beyond_.wraps_y) return false;
+  if (across_.wraps || down_.wraps) return false;
   return is_clear_inside(area);
 }
 
@@ -101,8 +118,8 @@ bool Source::is_clear(const float* x, const float* y, int count) const {
 
 bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {
   if (empty()) return false;
-  beyond_.wraps_x ? wrap(x, count, width_) : hold(x, count, width_);
-  beyond_.wraps_y ? wrap(y, count, height_) : hold(y, count, height_);
+  bring_inside(x, count, width_, across_);
+  bring_inside(y, count, height_, down_);
   if (is_clear(x, y, count)) return false;
   static const auto kernel = has_avx2() ? stillwater_sample_avx2 : sample_plain;
   const float* origin = at(0, 0)->val;

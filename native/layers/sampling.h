@@ -6,9 +6,11 @@
 /// neighbours with the exact weights of each place, no table of places.
 namespace stillwater {
 
-/// How a source goes on beyond its sides.
+/// How a source goes on beyond its sides along one axis.
 struct Beyond {
-  bool wraps_x = false, wraps_y = false;  ///< true: the image is one period of an endless one; false: its edge repeats
+  bool wraps = false;                  ///< the image is one period of an endless one
+  bool mirror_low = true;              ///< it goes on as its mirror image at the left (top) ...
+  bool mirror_high = true;             ///< ... and at the right (bottom); else its last pixel repeats
 };
 
 /// An image ready to be sampled: a copy with a frame of pixels around it, so that no place needs a special case, and
@@ -16,13 +18,14 @@ struct Beyond {
 class Source {
  public:
   Source() = default;
-  Source(const Rgba& image, Beyond beyond);
+  explicit Source(const Rgba& image, Beyond across = {}, Beyond down = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
   bool empty() const { return width_ == 0; }
 
-  /// True where no pixel within the rectangle (index coordinates, may reach outside) has any coverage.
+  /// True where no pixel within the rectangle (index coordinates; may reach beyond the sides, no further than it
+  /// reaches inside) has any coverage.
   bool is_clear(const cv::Rect& area) const;
 
   /// Colour at `count` places in index coordinates (0 = centre of the first pixel). Places whose `needed` byte is 0
@@ -42,7 +45,7 @@ class Source {
   bool is_clear_inside(const cv::Rect& area) const;
 
   Rgba padded_;
-  Beyond beyond_;
+  Beyond across_, down_;
   cv::Mat_<int> covered_blocks_;  ///< integral image of blocks that hold any coverage
   int width_ = 0, height_ = 0;
 };

@@ -1,4 +1,4 @@
-"""Catmull-Rom sampling: exact weights, edges that repeat, coverage within 0 .. 1, the same on every CPU."""
+"""Catmull-Rom sampling: exact weights, sides that go on mirrored, coverage within 0 .. 1, the same on every CPU."""
 
 import os
 import subprocess
@@ -18,7 +18,7 @@ def constant_map(dx, dy, shape=(37, 53)):
 
 
 def catmull_rom(image, dx, dy):
-    """The same by the definition, in double, with repeated edges."""
+    """The same by the definition, in double, mirrored at the sides."""
     def along(values, at, axis):
         size = values.shape[axis]
         base = np.floor(at).astype(int)
@@ -26,7 +26,8 @@ def catmull_rom(image, dx, dy):
         weights = [-0.5 * t**3 + t**2 - 0.5 * t, 1.5 * t**3 - 2.5 * t**2 + 1, -1.5 * t**3 + 2 * t**2 + 0.5 * t,
                    0.5 * t**3 - 0.5 * t**2]
         shape = [-1 if i == axis else 1 for i in range(3)]
-        return sum(w.reshape(shape) * np.take(values, np.clip(base + k - 1, 0, size - 1), axis) for k, w in enumerate(weights))
+        mirrored = np.concatenate([np.arange(size), np.arange(size)[::-1]])
+        return sum(w.reshape(shape) * np.take(values, mirrored[(base + k - 1) % (2 * size)], axis) for k, w in enumerate(weights))
 
     rows, columns = np.arange(image.shape[0]) + dy, np.arange(image.shape[1]) + dx
     return along(along(image.astype(float), rows, 0), columns, 1)
@@ -44,9 +45,14 @@ def test_weights_are_those_of_the_place(dx, dy):
     assert np.allclose(engine.displace(OPAQUE, constant_map(dx, dy)), catmull_rom(OPAQUE, dx, dy), atol=2e-6)
 
 
-def test_beyond_its_sides_the_edge_repeats():
-    far = engine.displace(OPAQUE, constant_map(-500, 0))
-    assert np.allclose(far, np.broadcast_to(OPAQUE[:, :1], OPAQUE.shape), atol=1e-6)
+@pytest.mark.parametrize("dx, dy", [(-20, 0), (31.4, 0), (0, -18.25), (0, 30), (-12.5, 17.1)])
+def test_beyond_its_sides_the_image_is_mirrored(dx, dy):
+    assert np.allclose(engine.displace(OPAQUE, constant_map(dx, dy)), catmull_rom(OPAQUE, dx, dy), atol=3e-6)
+
+
+def test_far_beyond_its_sides_it_is_some_colour_of_the_image():
+    far = engine.displace(OPAQUE, constant_map(-5000, 7000))
+    assert np.allclose(far[..., 3], 1, atol=1e-6) and far.min() >= 0
 
 
 def test_an_endless_image_wraps():

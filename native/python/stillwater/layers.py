@@ -9,7 +9,7 @@ from . import _stillwater
 def displace(image: ArrayLike, map: ArrayLike) -> NDArray[np.float32]:
     """The image sampled where a displacement map says: `out(p) = image(p + map(p))`.
 
-    Catmull-Rom with the exact weights of each place; beyond its sides the image's edge repeats. Works premultiplied,
+    Catmull-Rom with the exact weights of each place; beyond its sides the image goes on mirrored. Works premultiplied,
     so that no colour of transparent pixels shows.
 
     Args:
