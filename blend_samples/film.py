@@ -27,6 +27,7 @@ def install(zip_file: Path) -> None:
 
 def make_blend(recipe: Path, frames: Path, blend: Path) -> None:
     """Saves a .blend whose compositor shows the frames that were baked from `recipe`."""
+    bpy.context.preferences.filepaths.save_version = 0  # no .blend1 beside it
     bpy.ops.wm.save_as_mainfile(filepath=str(blend))  # first, so that the paths in it are relative
     bpy.ops.stillwater.load_recipe(filepath=str(recipe))
     bpy.context.scene.stillwater.active().tree.stillwater.folder = bpy.path.relpath(str(frames))
@@ -44,6 +45,7 @@ def render(folder: Path, first: int, last: int) -> None:
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
     scene.render.image_settings.compression = 15
+    scene.render.dither_intensity = 0
     for frame in range(first, last + 1):
         scene.frame_set(frame)
         scene.render.filepath = str(folder / f"{frame:04d}.png")

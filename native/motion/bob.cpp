@@ -7,7 +7,6 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "motion/rigid.h"
 
 namespace stillwater {
 namespace {
@@ -20,16 +19,16 @@ double length_of(const std::vector<Point>& line) {
   return length;
 }
 
-/// Points at equal distances along the waterline, so that the regression weighs water, not clicks.
+/// The middles of pieces of equal length, so that the regression weighs water, not clicks.
 std::vector<Point> resampled(const std::vector<Point>& line) {
-  const double step = length_of(line) / (samples - 1);
+  const double step = length_of(line) / samples;
   std::vector<Point> points;
   double gone = 0;
   for (size_t i = 1; i < line.size(); ++i) {
     const Point a = line[i - 1], b = line[i];
     const double piece = std::hypot(b.x - a.x, b.y - a.y);
-    for (; points.size() < samples - 1 && points.size() * step <= gone + piece; ) {
-      const double share = piece > 0 ? (points.size() * step - gone) / piece : 0;
+    for (double place; points.size() < samples && (place = (points.size() + 0.5) * step) <= gone + piece;) {
+      const double share = (place - gone) / piece;
       points.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
     }
     gone += piece;
@@ -87,27 +86,33 @@ double slope(const Axis& axis, const std::vector<Point>& points) {
 
 }  // namespace
 
+std::vector<Point> waterline_samples(const Bob& bob) { return resampled(checked(bob).waterline); }
+
 Segment fitted_waterline(const Bob& bob) {
-  const std::vector<Point> points = resampled(checked(bob).waterline);
-  const Axis axis = fitted(points);
-  return {axis.at(axis.position(points.front())), axis.at(axis.position(points.back()))};
+  const Axis axis = fitted(waterline_samples(bob));
+  return {axis.at(axis.position(bob.waterline.front())), axis.at(axis.position(bob.waterline.back()))};
 }
 
-std::shared_ptr<const Displacement> bob(const Bob& bob, const Displacement& water, cv::Size picture) {
-  const std::vector<Point> rest = resampled(checked(bob).waterline);
-  std::vector<float> x, y;
-  for (const Point& p : rest) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
-  std::vector<float> to_x = x, to_y = y;
-  water.map(to_x.data(), to_y.data(), samples);
-  // What the water adds, so that the coordinates' rounding doesn't move a boat on a flat sea.
-  std::vector<Point> moved = rest;
-  for (int i = 0; i < samples; ++i) moved[i].x += to_x[i] - x[i], moved[i].y += to_y[i] - y[i];
-
+std::shared_ptr<const RigidMotion> fitted_motion(const Bob& bob, const std::vector<Point>& moved, cv::Size picture) {
+  const std::vector<Point> rest = waterline_samples(bob);
+  if (moved.size() != rest.size())
+    throw BadInput("moved: " + std::to_string(moved.size()) + " points is not " + std::to_string(rest.size()));
   const Axis axis = fitted(rest);
   const Point from = axis.middle, to = mean(moved);
   const double roll = std::atan(slope(axis, moved)) - std::atan(slope(axis, rest));
   return std::make_shared<RigidMotion>(from, bob.amount * roll,
                                        Point{bob.amount * (to.x - from.x), bob.amount * (to.y - from.y)}, picture);
+}
+
+std::shared_ptr<const RigidMotion> bob(const Bob& bob, const Displacement& water, cv::Size picture) {
+  std::vector<Point> points = waterline_samples(bob);
+  std::vector<float> x, y;
+  for (const Point& p : points) x.push_back(static_cast<float>(p.x)), y.push_back(static_cast<float>(p.y));
+  std::vector<float> to_x = x, to_y = y;
+  water.map(to_x.data(), to_y.data(), samples);
+  // What the water adds, so that the coordinates' rounding doesn't move a boat on a flat sea.
+  for (int i = 0; i < samples; ++i) points[i].x += to_x[i] - x[i], points[i].y += to_y[i] - y[i];
+  return fitted_motion(bob, points, picture);
 }
 
 }  // namespace stillwater

@@ -11,9 +11,9 @@
 namespace stillwater {
 namespace {
 
-// A block's samples: 31 of the widest steps, the spline's reach and the smoothing's.
+// A block's samples: 63 of the widest steps, the spline's reach and the smoothing's.
 constexpr double widest_step = 3.6;
-constexpr int longest_run = 136;
+constexpr int longest_run = 248;
 constexpr int most_taps = 12;
 constexpr double spline_variance = 1.0 / 3;
 constexpr double widest = 7;  // square of the stretch at which the next level takes over: 3 + 4 * 1

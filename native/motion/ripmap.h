@@ -25,7 +25,7 @@ struct FootprintRow {
 
 class Ripmap {
  public:
-  static constexpr int block = 32;  ///< pixels that filtered() answers at once
+  static constexpr int block = 64;  ///< pixels that filtered() answers at once
 
   /// `spline` holds coefficients of a periodic cubic B-spline (WaveTile::spline).
   explicit Ripmap(const InverseFft2& spline);

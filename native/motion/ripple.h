@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "core/image.h"
 #include "layers/displacement.h"
@@ -19,6 +20,10 @@
 namespace stillwater {
 
 enum class RippleMode { height, normal };
+
+/// By the recipe's names: "height", "normal". Throws BadInput.
+RippleMode ripple_mode_named(const std::string& name);
+std::string name_of(RippleMode mode);
 
 /// The recipe's `ripple`, with its animated numbers resolved.
 struct Ripple {

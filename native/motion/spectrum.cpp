@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
+
 namespace stillwater {
 namespace {
 
@@ -48,6 +50,26 @@ double phillips(double wind_speed, double k) {
 }
 
 }  // namespace
+
+std::string name_of(Spectrum spectrum) {
+  switch (spectrum) {
+    case Spectrum::phillips:
+      return "phillips";
+    case Spectrum::pierson_moskowitz:
+      return "pierson-moskowitz";
+    case Spectrum::jonswap:
+      return "jonswap";
+    case Spectrum::tma:
+      return "tma";
+  }
+  return "";
+}
+
+Spectrum spectrum_named(const std::string& name) {
+  for (const Spectrum s : {Spectrum::phillips, Spectrum::pierson_moskowitz, Spectrum::jonswap, Spectrum::tma})
+    if (name_of(s) == name) return s;
+  throw BadInput("spectrum: \"" + name + "\" is not phillips, pierson-moskowitz, jonswap or tma");
+}
 
 double angular_frequency(const Sea& sea, double wave_number) {
   const double deep = gravity * wave_number;

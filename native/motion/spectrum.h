@@ -1,11 +1,17 @@
 #pragma once
 
+#include <string>
+
 /// Wave spectra of the open sea: how the variance of the water's height is spread over wave vectors.
 namespace stillwater {
 
 inline constexpr double gravity = 9.81;  ///< m/s^2
 
 enum class Spectrum { phillips, pierson_moskowitz, jonswap, tma };
+
+/// By the recipe's names: "phillips", "pierson-moskowitz", "jonswap", "tma". Throws BadInput.
+Spectrum spectrum_named(const std::string& name);
+std::string name_of(Spectrum spectrum);
 
 /// The sea that a steady wind raises.
 struct Sea {

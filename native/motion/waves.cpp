@@ -15,7 +15,7 @@ namespace stillwater {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr int lanes = 8;  // rows of modes start at multiples of 8 floats
+constexpr int lanes = 8;  // columns of turns start at multiples of 8 floats
 
 const WaveTile& checked(const WaveTile& tile) {
   check::in_range("tile", tile.side, 1e-3, 2000, "m");
@@ -39,15 +39,15 @@ Waves::Waves(const WaveTile& tile, double period)
       stride_((half_ + 1 + lanes - 1) / lanes * lanes),
       turns_(static_cast<size_t>(half_ + 1) * stride_),
       noise_(static_cast<size_t>(tile.resolution) * tile.resolution),
-      modes_(static_cast<size_t>(tile.resolution) * 4 * stride_),
+      modes_(static_cast<size_t>(half_ + 1) * 4 * tile.resolution),
       transform_(tile.resolution) {
   const int n = tile_.resolution;
   const Sea sea{tile_.spectrum, 0, tile_.fetch, tile_.depth};
   parallel_rows(half_ + 1, 8, [&](int first, int last) {
-    for (int ky = first; ky < last; ++ky)
-      for (int kx = 0; kx <= half_; ++kx) {
+    for (int kx = first; kx < last; ++kx)
+      for (int ky = 0; ky <= half_; ++ky) {
         const double turns = angular_frequency(sea, turn / tile_.side * std::hypot(kx, ky)) / turn;
-        turns_[static_cast<size_t>(ky) * stride_ + kx] =
+        turns_[static_cast<size_t>(kx) * stride_ + ky] =
             period > 0 && turns > 0 ? std::max(1.0, std::round(turns * period)) : turns;
       }
   });
@@ -60,7 +60,7 @@ Waves::Waves(const WaveTile& tile, double period)
   });
 }
 
-float* Waves::mode_row(int ky) { return modes_.data() + static_cast<size_t>(ky) * 4 * stride_; }
+float* Waves::mode_column(int kx) { return modes_.data() + static_cast<size_t>(kx) * 4 * tile_.resolution; }
 
 void Waves::blow(double speed, double direction) {
   check::in_range("wind.speed", speed, 0, 100, "m/s");
@@ -79,8 +79,8 @@ void Waves::blow(double speed, double direction) {
     return noise * static_cast<float>(root * std::sqrt(spreading(towards)));
   };
   parallel_rows(half_ + 1, 4, [&](int first, int last) {
-    for (int ky = first; ky < last; ++ky)
-      for (int kx = 0; kx <= half_; ++kx) {
+    for (int kx = first; kx < last; ++kx)
+      for (int ky = 0; ky <= half_; ++ky) {
         const bool empty = highest(kx, ky, n) || (kx == 0 && ky == 0);
         const double k = dk * std::hypot(kx, ky);
         double root = empty ? 0 : std::sqrt(radial_density(sea, k) / k / 2) * dk;
@@ -89,11 +89,11 @@ void Waves::blow(double speed, double direction) {
           if (sign < 0 && (ky == 0 || ky == half_)) continue;
           const auto with = empty ? 0 : amplitude(kx, sign * ky, root);
           const auto against = empty ? 0 : amplitude(-kx, -sign * ky, root);
-          float* row = mode_row((sign * ky + n) % n) + kx;
-          row[0] = with.real() + against.real();
-          row[stride_] = with.imag() + against.imag();
-          row[2 * stride_] = with.imag() - against.imag();
-          row[3 * stride_] = against.real() - with.real();
+          float* mode = mode_column(kx) + (sign * ky + n) % n;
+          mode[0] = with.real() + against.real();
+          mode[n] = with.imag() + against.imag();
+          mode[2 * n] = with.imag() - against.imag();
+          mode[3 * n] = against.real() - with.real();
         }
       }
   });
@@ -104,23 +104,29 @@ const InverseFft2& Waves::at(double time, Quantity quantity) {
   const auto phases = has_avx2() ? wave_phases_avx2 : wave_phases;
   const auto modes = has_avx2() ? wave_modes_avx2 : wave_modes;
   const float dk = static_cast<float>(turn / tile_.side);
-  std::vector<float> cosines(stride_), sines(stride_);
-  const auto fill = [&](int ky) {
-    std::complex<float>* row = transform_.spectrum_row((ky + n) % n);
-    modes(mode_row((ky + n) % n), stride_, cosines.data(), sines.data(), half_ + 1, reinterpret_cast<float*>(row));
+  transform_.run([&](int kx, std::complex<float>* column) {
+    thread_local std::vector<float> cosines, sines;
+    cosines.resize(n + 1), sines.resize(n + 1);
+    phases(turns_.data() + static_cast<size_t>(kx) * stride_, time, half_ + 1, cosines.data(), sines.data());
+    for (int ky = 1; ky < half_; ++ky) cosines[n - ky] = cosines[ky], sines[n - ky] = sines[ky];
+    modes(mode_column(kx), n, cosines.data(), sines.data(), n, reinterpret_cast<float*>(column));
     if (quantity == Quantity::height) return;
-    for (int kx = 0; kx <= half_; ++kx) {
-      const float k = dk * static_cast<float>(quantity == Quantity::slope_right ? kx : ky);
-      row[kx] = {-k * row[kx].imag(), k * row[kx].real()};
+    for (int y = 0; y < n; ++y) {
+      const float k = dk * static_cast<float>(quantity == Quantity::slope_right ? kx : y < half_ ? y : y - n);
+      column[y] = {-k * column[y].imag(), k * column[y].real()};
     }
-  };
-  for (int ky = 0; ky <= half_; ++ky) {
-    phases(turns_.data() + static_cast<size_t>(ky) * stride_, time, half_ + 1, cosines.data(), sines.data());
-    fill(ky);
-    if (ky > 0 && ky < half_) fill(-ky);
-  }
-  transform_.run();
+  });
   return transform_;
+}
+
+Plane wave_heights(const WaveTile& tile, double speed, double direction, double seconds, double period) {
+  check::finite("seconds", seconds);
+  Waves waves(tile, period);
+  waves.blow(speed, direction);
+  const InverseFft2& filled = waves.at(period > 0 ? seconds / period : seconds);
+  Plane heights(tile.resolution, tile.resolution);
+  for (int y = 0; y < tile.resolution; ++y) std::copy_n(filled.tile_row(y), tile.resolution, heights[y]);
+  return heights;
 }
 
 }  // namespace stillwater

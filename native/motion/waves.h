@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fft.h"
+#include "core/image.h"
 #include "motion/spectrum.h"
 
 /// The water's surface as one periodic tile, at any time directly (Chuang et al. 2005, 3.3; Tessendorf 2001, 4.3;
@@ -45,15 +46,19 @@ class Waves {
   const InverseFft2& at(double time, Quantity quantity = Quantity::height);
 
  private:
-  float* mode_row(int ky);
+  float* mode_column(int kx);
 
   WaveTile tile_;
   double speed_ = 0, direction_ = 0;
   int half_, stride_;
-  std::vector<double> turns_;                ///< omega / 2 pi of the quarter kx, ky >= 0
+  std::vector<double> turns_;                ///< omega / 2 pi of the quarter kx, ky >= 0, ky running
   std::vector<std::complex<float>> noise_;   ///< xi / sqrt 2, all n x n
-  std::vector<float> modes_;                 ///< four rows for each ky, see wave_modes() in waves_kernel.h
+  std::vector<float> modes_;                 ///< four columns for each kx, see wave_modes() in waves_kernel.h
   InverseFft2 transform_;
 };
+
+/// Heights of one tile, metres, rows away from the viewer, under a wind of `speed` m/s to `direction` degrees. `period` as in
+/// Waves; `seconds` in either case. Throws BadInput.
+Plane wave_heights(const WaveTile& tile, double speed, double direction, double seconds, double period);
 
 }  // namespace stillwater

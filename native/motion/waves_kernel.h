@@ -4,7 +4,7 @@
 /// waves_avx2.cpp.
 
 /// cos and sin of 2 pi turns[i] time, to 2e-7. The turns are reduced in double precision.
-static void wave_phases(const double* turns, double time, int count, float* cosines, float* sines) {
+static inline void wave_phases(const double* turns, double time, int count, float* cosines, float* sines) {
   const double to_whole = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to a whole number
   for (int i = 0; i < count; ++i) {
     const double all = turns[i] * time;
@@ -21,9 +21,9 @@ static void wave_phases(const double* turns, double time, int count, float* cosi
   }
 }
 
-/// One row of the half spectrum: real = m0 cos + m1 sin, imaginary = m2 cos + m3 sin, where m0 .. m3 are rows of
+/// One column of the half spectrum: real = m0 cos + m1 sin, imaginary = m2 cos + m3 sin, where m0 .. m3 are columns of
 /// `modes`, `stride` apart: with A(k) = a + ib and A(-k) = p - iq they are a + p, b - q, b + q, p - a.
-static void wave_modes(const float* modes, int stride, const float* cosines, const float* sines, int count, float* out) {
+static inline void wave_modes(const float* modes, int stride, const float* cosines, const float* sines, int count, float* out) {
   const float *m0 = modes, *m1 = m0 + stride, *m2 = m1 + stride, *m3 = m2 + stride;
   for (int i = 0; i < count; ++i) {
     out[2 * i] = m0[i] * cosines[i] + m1[i] * sines[i];

@@ -70,6 +70,7 @@ prepare_extension() {
   state="$(state_of addon native CMakeLists.txt)"
   if once extension "$state"; then
     echo "building the extension"
+    rm -f "$build"/wheels/msgspec-*.whl "$build"/wheels/tqdm-*.whl
     "$build/venv/bin/python" -m pip download --quiet --disable-pip-version-check --only-binary :all: --no-deps \
       --dest "$build/wheels" msgspec tqdm || return 1
     rm -f "$build"/stillwater-*.zip

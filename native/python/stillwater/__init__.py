@@ -27,6 +27,10 @@ _HOMES = {
     "read_clip": "images",
     "srgb_to_linear": "images",
     "linear_to_srgb": "images",
+    "Ripple": "motion",
+    "bob": "motion",
+    "ripple": "motion",
+    "wave_heights": "motion",
 }
 
 __all__ = sorted(_HOMES)

@@ -1,0 +1,29 @@
+"""The frames on disk. Knows nothing of Blender."""
+
+import re
+from pathlib import Path
+
+
+def present(folder: Path, name: str) -> list[int]:
+    """The numbers of the frames NAME_0001.exr, ... in `folder`, in order; none where there is no such folder."""
+    numbered = re.compile(re.escape(name) + r"_(\d{4,})\.exr")
+    found = folder.iterdir() if folder.is_dir() else ()
+    return sorted(int(match[1]) for path in found if (match := numbered.fullmatch(path.name)))
+
+
+def path_of(folder: Path, name: str, frame: int) -> Path:
+    return folder / f"{name}_{frame:04d}.exr"
+
+
+def offsets(first: int, last: int, frames: list[int]) -> list[tuple[int, int]]:
+    """Where an image sequence's frame_offset has to change, so that a missing frame shows the nearest one.
+
+    A list of (frame, offset from there on); one entry where nothing is missing. Of two as near the earlier counts.
+    """
+    changes: list[tuple[int, int]] = []
+    for frame in range(first, last + 1):
+        nearest = min(frames, key=lambda there: (abs(there - frame), there))
+        offset = first - 1 + nearest - frame
+        if not changes or changes[-1][1] != offset:
+            changes.append((frame, offset))
+    return changes

@@ -1,0 +1,66 @@
+"""The Stillwater node in the Add menu, and reading frames that were made elsewhere."""
+
+import bpy
+
+from .. import versions
+from . import tree
+
+
+class STILLWATER_OT_add_node(bpy.types.Operator):
+    """Add a node that gives the active picture's frames"""
+
+    bl_idname = "stillwater.add_node"
+    bl_label = "Stillwater"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if context.scene.stillwater.active() is None:
+            cls.poll_message_set("The scene has no Stillwater picture yet")
+            return False
+        return True
+
+    def execute(self, context):
+        scene = context.scene
+        added = tree.add_node(scene, tree.ensure(scene, scene.stillwater.active()))
+        top = versions.compositor_tree(scene)
+        for node in top.nodes:
+            node.select = node == added
+        top.nodes.active = added
+        if context.space_data is not None and context.space_data.type == "NODE_EDITOR":
+            added.location = context.space_data.cursor_location
+        return {"FINISHED"}
+
+    def invoke(self, context, event):
+        result = self.execute(context)
+        bpy.ops.node.translate_attach_remove_on_cancel("INVOKE_DEFAULT")
+        return result
+
+
+class STILLWATER_OT_refresh(bpy.types.Operator):
+    """Read the active picture's frames from their folder again, as a farm or another machine left them there"""
+
+    bl_idname = "stillwater.refresh"
+    bl_label = "Read Frames Again"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        picture = context.scene.stillwater.active()
+        return picture is not None and picture.tree is not None
+
+    def execute(self, context):
+        shown = context.scene.stillwater.active().tree
+        found = tree.show(shown)
+        if not found:
+            self.report({"WARNING"}, f"{shown.stillwater.folder}: holds no frame {shown.stillwater.name}_0001.exr")
+        return {"FINISHED"}
+
+
+def draw_menu(self, context):
+    if context.space_data.tree_type == "CompositorNodeTree":
+        self.layout.separator()
+        self.layout.operator(STILLWATER_OT_add_node.bl_idname, icon="SEQUENCE")
+
+
+CLASSES = [STILLWATER_OT_add_node, STILLWATER_OT_refresh]

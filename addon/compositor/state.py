@@ -1,0 +1,33 @@
+"""What the node's tree knows of itself: whose frames it shows, where they lie, how their bake went."""
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+
+from ..properties import names
+
+
+class STILLWATER_PG_frames(bpy.types.PropertyGroup):
+    """On the node tree, so that the node shows the same in a scene that was copied or a file that appended it."""
+
+    picture: StringProperty(options={"HIDDEN"})  # the picture's permanent id; empty: not a tree of ours
+    scene: StringProperty(options={"HIDDEN"})  # name of the scene whose picture it is, where a copy has the same ids
+    folder: StringProperty(name="Frames", description="Folder of the frames", subtype="DIR_PATH", options=names.PATH)
+    name: StringProperty(name="Name", description="Frames are NAME_0001.exr", default="frame", options=set())
+    first: IntProperty(name="First", description="First frame of the last bake", default=1, options=set())
+    last: IntProperty(name="Last", description="Last frame of the last bake", default=1, options=set())
+    state: EnumProperty(
+        name="Bake", description="How the last bake went", default="none", options=set(),
+        items=[
+            ("none", "Not baked", "No frames were made yet"),
+            ("running", "Baking", "The worker is making frames"),
+            ("done", "Baked", "All frames are there"),
+            ("failed", "Failed", "The worker gave up"),
+            ("cancelled", "Cancelled", "The frames made so far are kept"),
+        ],
+    )
+    share: FloatProperty(name="Progress", description="Of the bake (0..1)", min=0, max=1, options=set())
+    message: StringProperty(name="Message", description="What the worker does, or why it gave up", options=set())
+    warning: StringProperty(name="Warning", description="What the worker warned of", options=set())
+
+
+CLASSES = [STILLWATER_PG_frames]

@@ -1,0 +1,141 @@
+"""The Stillwater node: a plain group of built-in nodes, fed by the frames on disk.
+
+    Image node (EXR sequence) -> group output: Image, Alpha, Flow, Matte
+
+One tree for each picture, shared by all its nodes. Nothing here is a class of ours, so a file renders the same where
+the extension is disabled.
+"""
+
+from pathlib import Path
+
+import bpy
+
+from .. import versions
+from ..properties import names
+from . import frames
+
+LAYER = "Stillwater"  # of the EXR files
+# Output of the Image node, output of the group, its kind.
+OUTPUTS = [
+    ("Combined", "Image", "NodeSocketColor"),
+    ("Alpha", "Alpha", "NodeSocketFloat"),
+    ("Flow", "Flow", "NodeSocketVector"),
+    ("Matte", "Matte", "NodeSocketFloat"),
+]
+
+
+def ensure(scene, picture):
+    """The tree of `picture`, made where there is none. The picture keeps it alive where no compositor shows it."""
+    if picture.tree is None:
+        tree = bpy.data.node_groups.new(f"Stillwater {picture.name}", "CompositorNodeTree")
+        tree.stillwater.picture = picture.id
+        tree.stillwater.scene = scene.name
+        for _, name, kind in OUTPUTS:
+            tree.interface.new_socket(name, in_out="OUTPUT", socket_type=kind)
+        source, output = tree.nodes.new("CompositorNodeImage"), tree.nodes.new("NodeGroupOutput")
+        source.name, source.label = "Frames", "Frames"
+        output.location.x = source.location.x + 300
+        picture.tree = tree
+    return picture.tree
+
+
+def claim(scene, picture):
+    """The tree that `scene` may bake into.
+
+    A copied scene holds a picture with the same id as the original's. When the copy is baked, it gets an id, a name, a
+    tree and nodes of its own, so that the original's frames are not written over.
+    """
+    holders = [other.name for other in bpy.data.scenes if any(p.id == picture.id for p in other.stillwater.pictures)]
+    owner = picture.tree.stillwater.scene if picture.tree else scene.name
+    if owner == scene.name or owner not in holders:
+        ensure(scene, picture).stillwater.scene = scene.name
+        return picture.tree
+    versions.own_compositor_tree(scene)
+    nodes = nodes_of(scene, picture.id)
+    picture.id, picture.tree = names.new_id(), None
+    names.make_unique(picture, names.all_pictures())
+    for node in nodes:
+        node.node_tree = ensure(scene, picture)
+        node.label = node.node_tree.name
+    return ensure(scene, picture)
+
+
+def show(tree) -> list[int]:
+    """Points the tree at what lies in its folder now; returns the frames found.
+
+    A frame missing between `first` and `last` shows the nearest that is there. Without any the node gives nothing.
+    """
+    state, source = tree.stillwater, tree.nodes["Frames"]
+    folder = Path(bpy.path.abspath(state.folder))
+    found = [frame for frame in frames.present(folder, state.name) if state.first <= frame <= state.last]
+    if not found:
+        source.image = None
+        return found
+    _point(source, frames.path_of(folder, state.name, found[0]), f"Stillwater {state.picture}")
+    source.frame_start = state.first
+    source.frame_duration = state.last - state.first + 1
+    source.use_auto_refresh = True
+    source.use_cyclic = False
+    _hold(tree, frames.offsets(state.first, state.last, found))
+    output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+    for name, shown, _ in OUTPUTS:
+        tree.links.new(source.outputs[name], output.inputs[shown])
+    return found
+
+
+def _point(source, path: Path, name: str) -> None:
+    """Makes the Image node read the sequence that `path` is a file of, as it is on disk now."""
+    if source.image is None:
+        source.image = bpy.data.images.load(str(path))
+        source.image.name, source.image.source = name, "SEQUENCE"
+    image = source.image
+    image.filepath = bpy.path.relpath(str(path)) if _can_be_relative(path) else str(path)
+    source.layer = LAYER
+    # Both: either alone leaves a stale picture in renders or in the backdrop.
+    image.reload()
+    image.update_tag()
+
+
+def _can_be_relative(path: Path) -> bool:
+    """In a saved file, and on its drive."""
+    return bool(bpy.data.filepath) and path.drive == Path(bpy.data.filepath).drive
+
+
+def _hold(tree, changes: list[tuple[int, int]]) -> None:
+    """Sets the Image node's frame_offset, keyed where it changes."""
+    source = tree.nodes["Frames"]
+    path = f"{source.path_from_id()}.frame_offset"
+    if tree.animation_data is not None:
+        for curves in versions.channelbags(tree.animation_data):
+            for curve in [curve for curve in curves if curve.data_path == path]:
+                curves.remove(curve)
+    source.frame_offset = changes[0][1]
+    if len(changes) > 1:
+        versions.set_curve(tree, path, 0, changes, "CONSTANT")
+
+
+def add_node(scene, tree):
+    """A node that shows `tree`, in the compositor of `scene`."""
+    top = versions.compositor_tree(scene, create=True)
+    node = top.nodes.new("CompositorNodeGroup")
+    node.node_tree = tree
+    node.label = tree.name
+    node.width = 200
+    return node
+
+
+def nodes_of(scene, picture_id: str) -> list:
+    """The nodes of the scene's compositor that show this picture."""
+    top = versions.compositor_tree(scene)
+    groups = [node for node in top.nodes if node.bl_idname == "CompositorNodeGroup" and node.node_tree] if top else []
+    return [node for node in groups if node.node_tree.stillwater.picture == picture_id]
+
+
+def wire(scene, tree) -> None:
+    """Makes the scene's render the tree's Image; its alpha is in it. A node that shows it already is used."""
+    node = next(iter(nodes_of(scene, tree.stillwater.picture)), None) or add_node(scene, tree)
+    top = versions.compositor_tree(scene)
+    output = versions.output_socket(top)
+    node.location = (output.node.location.x - 300, output.node.location.y)
+    top.links.new(node.outputs["Image"], output)
+    versions.use_compositor(scene)

@@ -1,0 +1,19 @@
+"""What the artist says, kept in the .blend: Scene.stillwater.pictures[i].layers[j], named as in the recipe."""
+
+import bpy
+
+from . import layer, motions, picture
+
+CLASSES = [*motions.CLASSES, *layer.CLASSES, *picture.CLASSES]
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.stillwater = bpy.props.PointerProperty(type=picture.STILLWATER_PG_scene)
+
+
+def unregister():
+    del bpy.types.Scene.stillwater
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,74 @@
+"""One layer of a picture: its matte, what is behind it, whom it follows, how it moves."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+from . import names
+from .motions import STILLWATER_PG_motion
+
+
+class STILLWATER_PG_matte(bpy.types.PropertyGroup):
+    """How much of each pixel belongs to the layer."""
+
+    form: EnumProperty(
+        name="Matte", description="What says which part of the picture the layer is", default="none", options=set(),
+        items=[
+            ("none", "None", "The whole picture: for the last layer, the background"),
+            ("file", "File", "An image: one channel, or grey"),
+            ("labels", "Labels", "All pixels of a label map that have one value"),
+        ],
+    )
+    file: StringProperty(name="File", description="Image with the matte", subtype="FILE_PATH", options=names.PATH)
+    channel: StringProperty(
+        name="Channel", description="Of the image, where it has it; else its grey",
+        default="A", maxlen=255, options=set(),
+    )
+    labels: StringProperty(name="Labels", description="Label map", subtype="FILE_PATH", options=names.PATH)
+    value: IntProperty(name="Value", description="Label of this layer", default=1, min=0, soft_max=255, options=set())
+
+
+class STILLWATER_PG_fill(bpy.types.PropertyGroup):
+    """What fills the hole behind the layer."""
+
+    method: EnumProperty(
+        name="Fill", description="What fills the hole behind the layer", default="exemplar", options=set(),
+        items=[
+            ("exemplar", "Exemplar", "Pieces of the picture itself"),
+            ("file", "File", "A painted background"),
+            ("none", "None", "Nothing: transparent behind"),
+        ],
+    )
+    file: StringProperty(name="File", description="Painted background", subtype="FILE_PATH", options=names.PATH)
+
+
+class STILLWATER_PG_follows(bpy.types.PropertyGroup):
+    """A shadow or a reflection goes with another layer's motion."""
+
+    layer_id: StringProperty(options={"HIDDEN"})
+    layer: StringProperty(
+        name="Follows", description="Goes with this layer: a shadow, a reflection", options=set(),
+        get=names.get_layer("layer_id"), set=names.set_layer("layer_id"), search=names.search_layers,
+    )
+    mirror: BoolProperty(name="Mirror", description="Mirrored, as a reflection", options=set())
+
+
+class STILLWATER_PG_layer(bpy.types.PropertyGroup):
+    """One piece of the picture and its motion."""
+
+    id: StringProperty(options={"HIDDEN"})
+    name: StringProperty(
+        name="Name", description="Unique in its picture", maxlen=200, options=set(),
+        update=lambda self, context: names.make_unique(self, names.picture_of(self).layers),
+    )
+    visible: BoolProperty(name="Visible", description="A hidden layer shows its fill", default=True, options=set())
+    opacity: FloatProperty(name="Opacity", description="Of the layer (0..1)", default=1, min=0, max=1, subtype="FACTOR")
+    feather: FloatProperty(
+        name="Feather", description="Softens the matte [px]", default=0, min=0, max=1000, soft_max=50, options=set()
+    )
+    follows: PointerProperty(type=STILLWATER_PG_follows)
+    matte: PointerProperty(type=STILLWATER_PG_matte)
+    fill: PointerProperty(type=STILLWATER_PG_fill)
+    motion: PointerProperty(type=STILLWATER_PG_motion)
+
+
+CLASSES = [STILLWATER_PG_matte, STILLWATER_PG_fill, STILLWATER_PG_follows, STILLWATER_PG_layer]

@@ -1,0 +1,63 @@
+"""Layers know each other by permanent ids; the artist sees names. Renaming a layer breaks nothing."""
+
+import uuid
+
+import bpy
+
+PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"}  # options of a property that holds one: not to be keyed
+
+
+def new_id() -> str:
+    return uuid.uuid4().hex[:12]
+
+
+def picture_of(part):
+    """The picture that a layer, or a part of one, belongs to."""
+    path = part.path_from_id()
+    return part.id_data.path_resolve(path[: path.index(".layers[")])
+
+
+def all_pictures() -> list:
+    """Every picture of the file: their names, as their folders', are unique in it."""
+    return [picture for scene in bpy.data.scenes for picture in scene.stillwater.pictures]
+
+
+def layer_by_id(picture, identifier: str):
+    """The layer with this id, or None."""
+    return next((layer for layer in picture.layers if identifier and layer.id == identifier), None)
+
+
+def get_layer(field: str):
+    """Reads a property that shows the name of the layer whose id stands in `field`."""
+
+    def get(self):
+        layer = layer_by_id(picture_of(self), getattr(self, field))
+        return layer.name if layer else ""
+
+    return get
+
+
+def set_layer(field: str):
+    """Writes such a property: a name that no layer has leaves it empty."""
+
+    def set(self, name):
+        setattr(self, field, next((layer.id for layer in picture_of(self).layers if layer.name == name), ""))
+
+    return set
+
+
+def search_layers(self, context, text):
+    """The names offered for such a property."""
+    return [layer.name for layer in picture_of(self).layers if text.lower() in layer.name.lower()]
+
+
+def make_unique(item, siblings) -> None:
+    """Gives `item` a name that none of its siblings has, as Blender does: Boat, Boat.001, ..."""
+    taken = {other.name for other in siblings if other.as_pointer() != item.as_pointer()}
+    base = item.name or "Unnamed"
+    name, count = base, 0
+    while name in taken:
+        count += 1
+        name = f"{base}.{count:03d}"
+    if name != item.name:
+        item.name = name

@@ -1,0 +1,128 @@
+"""One animated picture, and the scene's list of them. Frames and frame rate are the scene's own."""
+
+from math import radians
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from . import names
+from .layer import STILLWATER_PG_layer
+from .motions import place, seed
+
+COMPRESSIONS = ["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"]
+
+
+class STILLWATER_PG_wind(bpy.types.PropertyGroup):
+    """The one wind of all layers."""
+
+    speed: FloatProperty(name="Speed", description="Mean speed [m/s]", default=5, min=0, max=40, soft_max=20)
+    direction: FloatProperty(
+        name="Direction", subtype="ANGLE", default=0, min=radians(-36000), max=radians(36000),
+        soft_min=radians(-360), soft_max=radians(360),
+        description="Where it blows to, over the ground: 0 = the picture's right, 90 = away from the viewer [degrees]",
+    )
+    gusts: FloatProperty(
+        name="Gusts", description="Share of the speed that comes as moving gusts (0..1)",
+        default=0, min=0, max=1, subtype="FACTOR",
+    )
+    gust_size: FloatProperty(
+        name="Gust Size", description="Size of a gust, as a share of the picture's width",
+        default=0.25, min=0.001, soft_min=0.05, max=100, soft_max=2, options=set(),
+    )
+    seed: seed()
+
+
+class STILLWATER_PG_view(bpy.types.PropertyGroup):
+    """How the picture sees the world: needed by ripple and bob."""
+
+    use_horizon: BoolProperty(name="Horizon", description="The picture's horizon is known", options=set())
+    horizon_start: place("Start", "A point of the horizon; may lie outside the picture")
+    horizon_end: place("End", "Another point of the horizon; may lie outside the picture")
+    fov: FloatProperty(
+        name="Field of View", description="Horizontal [degrees]", subtype="ANGLE",
+        default=radians(50), min=radians(5), max=radians(150), soft_min=radians(20), soft_max=radians(100),
+        options=set(),
+    )
+    height: FloatProperty(
+        name="Eye Height", description="Of the eye over the water [m]",
+        default=1.7, min=0.001, soft_min=0.1, max=1e5, soft_max=100, options=set(),
+    )
+
+
+class STILLWATER_PG_output(bpy.types.PropertyGroup):
+    """Where frames go and how they are written."""
+
+    folder: StringProperty(
+        name="Folder", description="Of the frames, relative to the recipe's folder", default="frames", options=set()
+    )
+    name: StringProperty(
+        name="Name", description="Frames are NAME_0001.exr", default="frame", maxlen=200, options=set()
+    )
+    depth: EnumProperty(
+        name="Depth", description="Of the colour and matte channels", default="half", options=set(),
+        items=[("half", "Half", "16 bit: enough for 8-bit pictures"), ("float", "Float", "32 bit")],
+    )
+    compression: EnumProperty(
+        name="Compression", description="Of the OpenEXR files", default="zip", options=set(),
+        items=[(name, name.upper(), f"OpenEXR's {name.upper()}") for name in COMPRESSIONS],
+    )
+    layers: BoolProperty(name="Layers", description="Each layer as its own EXR layer beside the whole", options=set())
+    scale: FloatProperty(
+        name="Scale", description="Output pixels for a picture pixel",
+        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(),
+    )
+
+
+class STILLWATER_PG_picture(bpy.types.PropertyGroup):
+    """One animated picture: what the recipe says at its top level."""
+
+    id: StringProperty(options={"HIDDEN"})
+    name: StringProperty(
+        name="Name", description="Unique in the file", maxlen=60, options=set(),
+        update=lambda self, context: names.make_unique(self, names.all_pictures()),
+    )
+    picture: StringProperty(name="Picture", description="Image file", subtype="FILE_PATH", options=names.PATH)
+    colour_space: EnumProperty(
+        name="Colour Space", description="Of the picture", default="auto", options=set(),
+        items=[
+            ("auto", "Auto", "Linear for EXR and HDR, sRGB else"),
+            ("srgb", "sRGB", "As most pictures are"),
+            ("linear", "Linear", "Scene-linear Rec.709"),
+        ],
+    )
+    seed: IntProperty(name="Seed", description="Of all noise", default=0, min=0, options=set())
+    loop: BoolProperty(name="Loop", description="The last frame runs into the first without a seam", options=set())
+    wind: PointerProperty(type=STILLWATER_PG_wind)
+    view: PointerProperty(type=STILLWATER_PG_view)
+    output: PointerProperty(type=STILLWATER_PG_output)
+    layers: CollectionProperty(type=STILLWATER_PG_layer)
+    tree: PointerProperty(type=bpy.types.NodeTree, options={"HIDDEN"})  # the node's (compositor/tree.py)
+    active_layer: IntProperty(min=0, options={"HIDDEN"})
+
+
+class STILLWATER_PG_scene(bpy.types.PropertyGroup):
+    """The scene's pictures."""
+
+    pictures: CollectionProperty(type=STILLWATER_PG_picture)
+    active_picture: IntProperty(min=0, options={"HIDDEN"})
+
+    def active(self):
+        """The picture that panels and operators mean; None where there is none."""
+        return self.pictures[self.active_picture] if self.active_picture < len(self.pictures) else None
+
+
+CLASSES = [
+    STILLWATER_PG_wind,
+    STILLWATER_PG_view,
+    STILLWATER_PG_output,
+    STILLWATER_PG_picture,
+    STILLWATER_PG_scene,
+]

@@ -1,0 +1,115 @@
+"""From a picture's properties to its recipe.
+
+Properties have the names of the recipe's fields, so most groups are written field by field; what Blender keeps in
+another form (points, the horizon, layers by id) has a function of its own here.
+"""
+
+from collections.abc import Callable
+
+from .animation import Animation
+from .numbers import over_time, plain
+
+Locate = Callable[[str], str]  # a path as Blender keeps it -> as the recipe has it
+
+
+def recipe_of(scene, picture, animation: Animation, locate: Locate) -> dict:
+    """The recipe of one picture of `scene`. What was left empty is left out: the engine says what it misses."""
+    return {
+        "stillwater": 1,
+        **_given("picture", picture.picture and locate(picture.picture)),
+        "colour_space": picture.colour_space,
+        "frames": [scene.frame_start, scene.frame_end],
+        "fps": plain(scene.render.fps / scene.render.fps_base),
+        "seed": picture.seed,
+        "loop": picture.loop,
+        "wind": _fields(picture.wind, animation),
+        "view": _view(picture.view, animation),
+        "layers": [_layer(picture, layer, animation, locate) for layer in picture.layers],
+        "output": _fields(picture.output, animation),
+    }
+
+
+def frames_to_sample(first: int, last: int) -> range:
+    """Where animated numbers are asked for: rates are summed from frame 1, and the flow looks one frame ahead."""
+    return range(min(1, first), max(1, last) + 2)
+
+
+def _given(name: str, value) -> dict:
+    return {name: value} if value else {}
+
+
+def _fields(group, animation: Animation, but: tuple = ()) -> dict:
+    """Every property of a group under its own name. A seed of -1 is none."""
+    names = [name for name in type(group).__annotations__ if name not in but]
+    return {name: _value(group, name, animation) for name in names if (name, getattr(group, name)) != ("seed", -1)}
+
+
+def _value(group, name: str, animation: Animation):
+    """One property, over time where it is animated."""
+    value, kind = getattr(group, name), group.bl_rna.properties[name]
+    if kind.type != "FLOAT":
+        return value
+    numbers = list(value) if kind.is_array else [value]
+    rows = _rows(group, name, numbers, animation) if kind.is_animatable else [numbers]
+    limited = [[min(max(v, kind.hard_min), kind.hard_max) for v in row] for row in rows]
+    written = [[plain(v, kind.subtype) for v in row] for row in limited]
+    return over_time(written if kind.is_array else [row[0] for row in written], animation.frames.start)
+
+
+def _rows(group, name: str, numbers: list[float], animation: Animation) -> list:
+    """The numbers of one property for each frame, or once where nothing animates them; a part may be animated alone."""
+    path = f"{group.path_from_id()}.{name}"
+    columns = [animation.values(path, i) for i in range(len(numbers))]
+    if not any(columns):
+        return [numbers]
+    still = [[number] * len(animation.frames) for number in numbers]
+    return list(zip(*(column or held for column, held in zip(columns, still, strict=True)), strict=True))
+
+
+def _line(group, start: str, end: str) -> list:
+    return [[plain(v) for v in getattr(group, name)] for name in (start, end)]
+
+
+def _view(view, animation: Animation) -> dict:
+    written = _fields(view, animation, but=("use_horizon", "horizon_start", "horizon_end"))
+    horizon = _line(view, "horizon_start", "horizon_end") if view.use_horizon else None
+    return {**_given("horizon", horizon), **written}
+
+
+def _layer(picture, layer, animation: Animation, locate: Locate) -> dict:
+    followed = layer.follows.layer
+    return {
+        **_fields(layer, animation, but=("id", "follows", "matte", "fill", "motion")),
+        **_given("follows", followed and {"layer": followed, "mirror": layer.follows.mirror}),
+        **_given("matte", _matte(layer.matte, locate)),
+        "fill": {"file": locate(layer.fill.file)} if layer.fill.method == "file" else {"method": layer.fill.method},
+        "motion": _motion(layer.motion, animation),
+    }
+
+
+def _matte(matte, locate: Locate) -> dict | None:
+    match matte.form:
+        case "file":
+            return {"file": locate(matte.file), "channel": matte.channel}
+        case "labels":
+            return {"labels": locate(matte.labels), "value": matte.value}
+    return None
+
+
+def _motion(motion, animation: Animation) -> dict:
+    match motion.type:
+        case "sway":
+            armature = _line(motion.sway, "armature_root", "armature_tip")
+            numbers = _fields(motion.sway, animation, but=("armature_root", "armature_tip"))
+            return {"type": "sway", "armature": armature, **numbers}
+        case "ripple":
+            numbers = _fields(motion.ripple, animation)
+            return {"type": "ripple", **numbers, "resolution": int(numbers["resolution"])}
+        case "bob":
+            waterline = [[plain(v) for v in point.place] for point in motion.bob.waterline]
+            numbers = _fields(motion.bob, animation, but=("waterline", "water_id"))
+            return {"type": "bob", "waterline": waterline, **numbers}
+        case "drift":
+            way = "velocity" if motion.drift.use_velocity else "wind"
+            return {"type": "drift", way: _value(motion.drift, way, animation)}
+    return {"type": "still"}

@@ -1,0 +1,90 @@
+"""The list of layers and what changes it."""
+
+import bpy
+from bpy.props import EnumProperty
+
+from ..properties import arrange
+
+ICONS = {"still": "PINNED", "sway": "OUTLINER_OB_HAIR", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE", "drift": "FORCE_WIND"}
+
+
+class STILLWATER_UL_layers(bpy.types.UIList):
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index):
+        layout.prop(item, "name", text="", emboss=False, icon=ICONS[item.motion.type])
+        layout.prop(item, "visible", text="", emboss=False, icon="HIDE_OFF" if item.visible else "HIDE_ON")
+
+
+class STILLWATER_OT_layer(bpy.types.Operator):
+    """Change the active picture's list of layers"""
+
+    bl_idname = "stillwater.layer"
+    bl_label = "Layers"
+    bl_options = {"REGISTER", "UNDO"}
+
+    action: EnumProperty(
+        name="Action",
+        items=[
+            ("add", "Add", "A new layer before the active one"),
+            ("remove", "Remove", "The active layer"),
+            ("up", "Forward", "The active layer towards the viewer"),
+            ("down", "Back", "The active layer away from the viewer"),
+        ],
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene.stillwater.active() is not None
+
+    def execute(self, context):
+        picture = context.scene.stillwater.active()
+        index, count = picture.active_layer, len(picture.layers)
+        match self.action:
+            case "add":
+                arrange.add_layer(picture, "Layer" if count else "Background")
+                arrange.move_layer(picture, count, min(index, count))
+                to = index
+            case "remove" if index < count:
+                arrange.remove_layer(picture, index)
+                to = index - 1 if index == count - 1 else index
+            case "up" if 0 < index < count:
+                to = index - 1
+                arrange.move_layer(picture, index, to)
+            case "down" if index < count - 1:
+                to = index + 1
+                arrange.move_layer(picture, index, to)
+            case _:
+                return {"CANCELLED"}
+        picture.active_layer = max(0, to)
+        return {"FINISHED"}
+
+
+class STILLWATER_OT_add_picture(bpy.types.Operator):
+    """Add an empty picture to the scene"""
+
+    bl_idname = "stillwater.add_picture"
+    bl_label = "New Picture"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        picture = arrange.add_picture(context.scene, "Picture")
+        arrange.add_layer(picture, "Background")
+        return {"FINISHED"}
+
+
+class STILLWATER_OT_remove_picture(bpy.types.Operator):
+    """Remove the active picture from the scene; its frames and its node stay"""
+
+    bl_idname = "stillwater.remove_picture"
+    bl_label = "Remove Picture"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene.stillwater.active() is not None
+
+    def execute(self, context):
+        arrange.remove_picture(context.scene, context.scene.stillwater.active_picture)
+        return {"FINISHED"}
+
+
+CLASSES = [STILLWATER_UL_layers, STILLWATER_OT_layer, STILLWATER_OT_add_picture, STILLWATER_OT_remove_picture]

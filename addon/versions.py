@@ -1,0 +1,82 @@
+"""What differs between Blender 4.5 and 5.2, in one place. Everything else of the extension is the same in both."""
+
+import bpy
+
+
+def compositor_tree(scene, create: bool = False):
+    """The node tree that composites `scene`; None where there is none and none is to be made."""
+    if hasattr(scene, "compositing_node_group"):  # 5.0 and later: a node group as any other
+        if scene.compositing_node_group is None and create:
+            scene.compositing_node_group = bpy.data.node_groups.new("Compositing", "CompositorNodeTree")
+        return scene.compositing_node_group
+    if scene.node_tree is None and create:
+        scene.use_nodes = True
+        scene.node_tree.nodes.clear()
+    return scene.node_tree
+
+
+def own_compositor_tree(scene):
+    """Like compositor_tree, but shared with no other scene: 5.2 shares it when a scene is copied, 4.5 does not."""
+    tree = compositor_tree(scene)
+    others = [other for other in bpy.data.scenes if other != scene and compositor_tree(other) == tree]
+    if tree is not None and others:
+        scene.compositing_node_group = tree.copy()
+    return compositor_tree(scene)
+
+
+def use_compositor(scene) -> None:
+    """Makes renders of `scene` go through its compositor."""
+    scene.render.use_compositing = True
+    if not hasattr(scene, "compositing_node_group"):
+        scene.use_nodes = True
+
+
+def output_socket(tree):
+    """The input socket of `tree` that takes the composited picture, made where there is none."""
+    if hasattr(bpy.types, "CompositorNodeComposite"):  # before 5.0
+        node = next((node for node in tree.nodes if node.bl_idname == "CompositorNodeComposite"), None)
+        return (node or tree.nodes.new("CompositorNodeComposite")).inputs["Image"]
+    outputs = [item for item in tree.interface.items_tree if item.item_type == "SOCKET" and item.in_out == "OUTPUT"]
+    if not outputs:
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+    node = next((node for node in tree.nodes if node.bl_idname == "NodeGroupOutput"), None)
+    return (node or tree.nodes.new("NodeGroupOutput")).inputs[0]
+
+
+def channelbags(data) -> list:
+    """The collections of F-curves that move a datablock, given its animation data: its action's and its strips'."""
+    strips = [strip for track in data.nla_tracks for strip in track.strips]
+    used = [(data.action, data.action_slot), *((strip.action, strip.action_slot) for strip in strips)]
+    return [bag.fcurves for action, slot in used if (bag := _channelbag(action, slot)) is not None]
+
+
+def stripped_paths(data) -> set[str]:
+    """The paths that strips of the NLA animate."""
+    strips = [strip for track in data.nla_tracks if not track.mute for strip in track.strips if not strip.mute]
+    return {curve.data_path for strip in strips for curve in curves_of(strip.action, strip.action_slot)}
+
+
+def curves_of(action, slot) -> list:
+    """The F-curves that `slot` of `action` holds."""
+    bag = _channelbag(action, slot)
+    return list(bag.fcurves) if bag is not None else []
+
+
+def _channelbag(action, slot):
+    """An action has one layer and one strip in both versions; either may be missing in an empty one."""
+    strips = [strip for layer in action.layers for strip in layer.strips] if action and slot else []
+    return strips[0].channelbag(slot) if strips else None
+
+
+def set_curve(datablock, path: str, index: int, points: list[tuple], interpolation: str = "LINEAR") -> None:
+    """Replaces the F-curve of a property of `datablock`: `points` are (frame, value)."""
+    data = datablock.animation_data or datablock.animation_data_create()
+    if data.action is None:
+        data.action = bpy.data.actions.new(f"{datablock.name}Action")
+    curve = data.action.fcurve_ensure_for_datablock(datablock, path, index=index)
+    curve.keyframe_points.clear()
+    curve.keyframe_points.add(len(points))
+    curve.keyframe_points.foreach_set("co", [float(number) for point in points for number in point])
+    for key in curve.keyframe_points:
+        key.interpolation = interpolation
+    curve.update()

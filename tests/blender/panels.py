@@ -1,0 +1,45 @@
+"""A layout that writes down what is drawn on it, and refuses what does not exist."""
+
+from types import SimpleNamespace
+
+import bpy
+
+
+class Recorder:
+    """Stands for Blender's layout: takes any call, keeps texts and properties, and checks that these exist."""
+
+    def __init__(self):
+        self.texts, self.properties, self.operators = [], [], []
+
+    def __getattr__(self, name):
+        if name in ("row", "column", "box", "split"):
+            return lambda **_: self
+        if name in ("separator",):
+            return lambda **_: None
+        raise AttributeError(name)
+
+    def label(self, text="", icon="NONE"):
+        self.texts.append(text)
+
+    def progress(self, factor=0.0, text=""):
+        self.texts.append(text)
+
+    def prop(self, data, name, text="", icon="NONE", emboss=True):
+        getattr(data, name)
+        self.properties.append(name)
+
+    def operator(self, name, text="", icon="NONE"):
+        room, verb = name.split(".")
+        properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
+        self.operators.append(name)
+        return SimpleNamespace(**{kind.identifier: None for kind in properties})
+
+    def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
+        assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
+
+
+def draw(panel) -> Recorder:
+    """What a panel draws in the present context."""
+    recorder = Recorder()
+    panel.draw(SimpleNamespace(layout=recorder), bpy.context)
+    return recorder
