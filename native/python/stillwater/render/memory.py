@@ -6,39 +6,61 @@ rendering (the layers, mapped and made ready, and the frame at work). A test hol
 
 from ..recipe.stochastic import Drift
 
-PROCESS = 165e6  # Python and the engine's libraries
-RGBA, FIELD, PLANE = 16, 8, 4  # bytes a pixel
-AT_WORK = 7 * RGBA  # for each pixel of the layer that is being cut: both colours, what is known of them, pyramids
+PROCESS = 170e6  # Python and the engine's libraries
+RGBA, PLANE = 16, 4  # bytes a pixel
+LEFT = RGBA + 2 * PLANE  # what is left of the picture, what hides it, what is solid
+AT_WORK = 7 * RGBA  # a layer that is being cut: its colour, the one behind, and the pyramids they come from
+FRAME = 52  # picture, flow, matte, and what is written of them
 STRIP = 1.25  # an endless layer's period, of its side
+BLURRED = 2.5  # a drift, its blurred copy, and what that is made of
 
 
 def needed_bytes(job) -> float:
     """For a Job whose files are checked."""
-    rendering = _rendering(job)
-    return PROCESS + (rendering if job.stack is not None else max(_cutting(job), rendering))
+    if job.stack is not None:
+        return PROCESS + _rendering(job, job.boxes)
+    boxes = _behind(job.boxes)
+    return PROCESS + max(_cutting(job, boxes), _rendering(job, boxes))
 
 
-def _cutting(job) -> float:
+def _behind(boxes: list) -> list:
+    """The boxes as they will be: a layer goes on behind those in front that it touches."""
+    grown, hidden = [], None
+    for x, y, width, height in boxes:
+        sides = (x, y, x + width, y + height)
+        if width and hidden is not None:
+            low, high = (max(sides[i], hidden[i]) for i in (0, 1)), (min(sides[i], hidden[i]) for i in (2, 3))
+            if all(a <= b for a, b in zip(low, high, strict=True)):
+                sides = _union(sides, hidden)
+        if width:
+            hidden = sides if hidden is None else _union(sides, hidden)
+        grown.append((sides[0], sides[1], sides[2] - sides[0], sides[3] - sides[1]))
+    return grown
+
+
+def _cutting(job, boxes) -> float:
     pixels = job.sources.size[0] * job.sources.size[1]
-    mattes = sum(layer.matte is not None for layer in job.recipe.layers)
-    layers = RGBA * sum(_area(box) for box in job.boxes) * (2 if job.has_alpha else 1)
-    left = RGBA + 2 * PLANE  # what is left of the picture, what is hidden and what is solid
-    return pixels * (RGBA + PLANE * mattes + left) + layers + AT_WORK * max(map(_area, job.boxes))
+    with_matte = [box for box, layer in zip(boxes, job.recipe.layers, strict=True) if layer.matte is not None]
+    layers = RGBA * sum(map(_area, boxes)) * (2 if job.has_alpha else 1)
+    return pixels * (RGBA + PLANE * len(with_matte) + LEFT) + layers + AT_WORK * max(map(_area, with_matte), default=0)
 
 
-def _rendering(job) -> float:
+def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
     pixels = job.sources.size[0] * job.sources.size[1]
     layers = 0.0
-    for layer, box, endless in zip(job.recipe.layers, job.boxes, job.timeline.endless, strict=True):
+    for layer, box, endless in zip(job.recipe.layers, boxes, job.timeline.endless, strict=True):
         ready = pixels * (STRIP if endless[0] else 1) * (STRIP if endless[1] else 1) if any(endless) else _area(box)
-        copies = 2 if isinstance(layer.motion, Drift) else 1  # a drift's blurred copy
+        copies = BLURRED if isinstance(layer.motion, Drift) else 1
         layers += RGBA * (_area(box) + shrunk * ready * copies * layer.visible)
     if job.has_alpha:
         layers *= 2
-    frame = job.size[0] * job.size[1] * (2 * RGBA + FIELD + PLANE)
-    own = sum(layer.visible for layer in job.recipe.layers) * job.size[0] * job.size[1] * RGBA
-    return layers + frame + (own if job.recipe.output.layers else 0)
+    own = RGBA * sum(layer.visible for layer in job.recipe.layers) if job.recipe.output.layers else 0
+    return layers + job.size[0] * job.size[1] * (FRAME + own)
+
+
+def _union(a, b) -> tuple:
+    return min(a[0], b[0]), min(a[1], b[1]), max(a[2], b[2]), max(a[3], b[3])
 
 
 def _area(box) -> int:
