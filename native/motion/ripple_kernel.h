@@ -114,9 +114,9 @@ static inline void raised_unmap(const struct raised_water* water, float* px, flo
     const float height = water_between(w.heights, from_x, from_y, &down);
     const float missed = column - raised_share(w, height, below) * (w.pull + w.up_z * from_y);
     const float steepness = 1 - (down * below + height) * w.kappa_of_height * w.pull;
-    const int smooth = (steepness > 0.5f) & (missed < 0.5f) & (missed > -0.5f);
+    const int smooth = (steepness > 0.5f) & (missed < 0.5f) & (missed > -0.5f) & water_inside(w.heights, from_x, from_y);
     const float step = missed / (steepness > 0.5f ? steepness : 0.5f) * (float)smooth;
-    const int inside = water_inside(w.sources, x, y) & water_inside(w.heights, from_x, from_y), wet = y > w.horizon;
+    const int inside = water_inside(w.sources, x, y), wet = y > w.horizon;
     out[i] = wet & !inside;
     const float dy = (column - step) * (float)(wet & inside), dx = lean * dy;
     to_x[i] = px[i] + (dx * w.along_x - dy * w.along_y);

@@ -185,14 +185,15 @@ void RaisedWater::map_level(Point& level) const {
 }
 
 /// The search for one place, where no nodes are kept: from where the highest wave could come from, upwards to the first
-/// line that reaches it.
+/// line that reaches it. Steps are pixels, far below the horizon a share of the distance to it.
 void RaisedWater::unmap_level(Point& level) const {
   const Point to = level;
   const auto source = [&](double y) { return Point{to.x * (water_.pull + water_.up_z * y) / (water_.pull + water_.up_z * to.y), y}; };
   const auto seen_at = [&](double y) { return y + lift(raise(source(y)).share, y); };
   double nearer = furthest_source(to.y, heights_.bound()), before = seen_at(nearer);
-  for (double y = nearer - 1; nearer > plane_.horizon(); nearer = y, --y) {
-    y = std::max(y, plane_.horizon());
+  while (nearer > plane_.horizon()) {
+    const double below = nearer - plane_.horizon();
+    double y = std::max(plane_.horizon(), nearer - std::max(1.0, below / 256));
     const double here = seen_at(y);
     if (here <= to.y) {
       for (double low = y, at_low = here; nearer - low > 1e-3 && before > at_low;) {
@@ -205,7 +206,7 @@ void RaisedWater::unmap_level(Point& level) const {
       level = source(y);
       return;
     }
-    before = here;
+    nearer = y, before = here;
   }
 }
 
