@@ -106,6 +106,7 @@ RippleMotion::RippleMotion(const Ripple& ripple, const View& view, const Wind& w
                            cv::Rect region) {
   check::in_range("roughness", ripple.roughness, 1e-4, 1e4);
   check::in_range("tile", ripple.tile, 10, 2000, "m");
+  checked(tile_of(ripple));
   state_ = std::make_unique<State>(ripple, WaterPlane(view, picture), wind, picture, region);
 }
 

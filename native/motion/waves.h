@@ -29,6 +29,9 @@ struct WaveTile {
   bool spline = false;
 };
 
+/// The tile itself. Throws BadInput where a number is outside its range.
+const WaveTile& checked(const WaveTile& tile);
+
 class Waves {
  public:
   enum class Quantity { height, slope_right, slope_away };

@@ -60,7 +60,7 @@ def test_water_wholly_above_the_picture_s_bottom_edge_stands_still(horizon):
 
 
 def test_a_point_goes_to_where_the_plane_says_it_is_seen_when_raised():
-    """The height there is the tile's, summed up wave by wave; near the eye, where a pixel is far smaller than the waves."""
+    """The height there is the tile's, summed wave by wave; near the eye, where pixels are far smaller than waves."""
     size, horizon, wind = (640, 400), ((0, 90), (640, 130)), Wind(direction=30)
     plane = engine.WaterPlane(engine.View(horizon=horizon), size)
     water = displacement(horizon, size, 5, wind, resolution=512)
@@ -192,7 +192,7 @@ def test_gusts_raise_the_water_where_they_blow():
 
 
 def energy(scale, frames, **given):
-    """Variance over time, by rows, of a noise picture that lies under the water, at `scale` x `scale` samples a pixel."""
+    """Variance over time, by rows, of a noise picture under the water, at `scale` x `scale` samples a pixel."""
     width, height, horizon = 200, 120, 40
     noise = np.random.default_rng(1).standard_normal((height * 4, width * 4))
     fine = gaussian_filter(noise, 4).astype(np.float32)
@@ -206,7 +206,9 @@ def energy(scale, frames, **given):
     return np.var(shown, axis=0).mean(1)[horizon:]
 
 
-@pytest.mark.parametrize("given", [{}, {"wind": Wind(direction=90)}, {"amplitude": 0.3}, {"resolution": 512, "tile": 10.0}])
+@pytest.mark.parametrize(
+    "given", [{}, {"wind": Wind(direction=90)}, {"amplitude": 0.3}, {"resolution": 512, "tile": 10.0}]
+)
 def test_near_the_horizon_the_water_is_no_busier_than_16_samples_a_pixel(given):
     frames = range(1, 400, 33)
     ours, truth = (energy(scale, frames, **given) for scale in (1, 4))
@@ -260,3 +262,8 @@ def test_what_is_no_water_is_refused(given, sentence):
     with pytest.raises(engine.BadInput) as refused:
         stillwater.ripple(SIZE, 1, HORIZON, **given)
     assert str(refused.value) == sentence
+
+
+def test_what_is_no_tile_is_refused_before_the_first_frame():
+    with pytest.raises(engine.BadInput, match="^fetch: 0 is not above 0"):
+        engine.RippleMotion(engine.Ripple(fetch=0.0), engine.View(horizon=HORIZON), engine.Wind(), SIZE)

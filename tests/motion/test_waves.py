@@ -32,7 +32,7 @@ def test_significant_height_is_the_spectrum_s(spectrum):
 
 @pytest.mark.parametrize("depth", [None, 3.0])
 def test_dispersion_is_read_back_from_space_and_time(depth):
-    """A 3-D transform over a loop: all energy of a wave number stands at its frequency, sqrt(g k) within half a step."""
+    """In a 3-D transform over a loop all energy of a wave number stands at sqrt(g k), within half a step."""
     n, tile, seconds, steps = 16, 40.0, 32.0, 128
     sea = {"spectrum": "phillips"} if depth is None else {"spectrum": "tma", "depth": depth}
     given = {"tile": tile, "resolution": n, "loop_seconds": seconds, **sea}
