@@ -42,12 +42,14 @@ void bind_view(py::module_& module) {
              return view;
            }),
            py::kw_only(), py::arg("horizon") = py::none(), py::arg("fov") = usual.fov, py::arg("height") = usual.height)
-      .def_property_readonly("horizon",
-                             [](const View& view) { return view.horizon ? std::optional(as_ends(*view.horizon)) : std::nullopt; })
+      .def_property_readonly(
+          "horizon",
+          [](const View& view) { return view.horizon ? std::optional(as_ends(*view.horizon)) : std::nullopt; })
       .def_readonly("fov", &View::fov)
       .def_readonly("height", &View::height)
       .def(
-          "any_water", [](const View& view, std::array<int, 4> box) { return view.any_water(as_rect(box)); }, py::arg("box"));
+          "any_water", [](const View& view, std::array<int, 4> box) { return view.any_water(as_rect(box)); },
+          py::arg("box"));
 
   py::class_<WaterPlane>(module, "WaterPlane")
       .def(py::init([](const View& view, std::array<int, 2> picture) { return WaterPlane(view, as_size(picture)); }),
@@ -56,15 +58,16 @@ void bind_view(py::module_& module) {
           "ground", [](const WaterPlane& plane, Pair place) { return as_pair(plane.ground(as_point(place))); },
           py::arg("picture"))
       .def(
-          "seen", [](const WaterPlane& plane, Pair ground, double rise) { return as_pair(plane.seen(as_point(ground), rise)); },
+          "seen",
+          [](const WaterPlane& plane, Pair ground, double rise) { return as_pair(plane.seen(as_point(ground), rise)); },
           py::arg("ground"), py::arg("rise") = 0.0);
 }
 
 void bind_waves(py::module_& module) {
   module.def(
       "wave_heights",
-      [](double tile, int resolution, const std::string& spectrum, double fetch, double depth, std::uint64_t seed, double speed,
-         double direction, double seconds, double period) {
+      [](double tile, int resolution, const std::string& spectrum, double fetch, double depth, std::uint64_t seed,
+         double speed, double direction, double seconds, double period) {
         Plane heights;
         {
           const WaveTile given{tile, resolution, spectrum_named(spectrum), fetch, depth, seed};
@@ -76,8 +79,10 @@ void bind_waves(py::module_& module) {
       py::kw_only(), py::arg("tile"), py::arg("resolution"), py::arg("spectrum"), py::arg("fetch"), py::arg("depth"),
       py::arg("seed"), py::arg("speed"), py::arg("direction"), py::arg("seconds"), py::arg("period"));
   py::class_<Waves>(module, "Waves")
-      .def(py::init([](double tile, int resolution) { return Waves(WaveTile{tile, resolution}); }), py::arg("tile"),
-           py::arg("resolution"))
+      .def(py::init([](double tile, int resolution) {
+             return Waves(WaveTile{tile, resolution});
+           }),
+           py::arg("tile"), py::arg("resolution"))
       .def("blow", &Waves::blow, py::arg("speed"), py::arg("direction"))
       .def(
           "fill", [](Waves& waves, double seconds) { waves.at(seconds); }, py::arg("seconds"),
@@ -96,13 +101,13 @@ void bind_ripple(py::module_& module) {
   py::class_<Ripple>(module, "Ripple")
       .def(py::init([](double amplitude, double roughness, double tile, int resolution, const std::string& mode,
                        const std::string& spectrum, double fetch, double depth, std::uint64_t seed) {
-             return Ripple{amplitude, roughness, tile, resolution, ripple_mode_named(mode), spectrum_named(spectrum), fetch,
-                           depth, seed};
+             return Ripple{amplitude, roughness, tile, resolution, ripple_mode_named(mode), spectrum_named(spectrum),
+                           fetch,     depth,     seed};
            }),
            py::kw_only(), py::arg("amplitude") = usual.amplitude, py::arg("roughness") = usual.roughness,
-           py::arg("tile") = usual.tile, py::arg("resolution") = usual.resolution, py::arg("mode") = name_of(usual.mode),
-           py::arg("spectrum") = name_of(usual.spectrum), py::arg("fetch") = usual.fetch, py::arg("depth") = usual.depth,
-           py::arg("seed") = usual.seed)
+           py::arg("tile") = usual.tile, py::arg("resolution") = usual.resolution,
+           py::arg("mode") = name_of(usual.mode), py::arg("spectrum") = name_of(usual.spectrum),
+           py::arg("fetch") = usual.fetch, py::arg("depth") = usual.depth, py::arg("seed") = usual.seed)
       .def_readonly("amplitude", &Ripple::amplitude)
       .def_readonly("roughness", &Ripple::roughness)
       .def_readonly("tile", &Ripple::tile)
@@ -132,7 +137,9 @@ void bind_ripple(py::module_& module) {
 void bind_bob(py::module_& module) {
   const Bob usual;
   py::class_<Bob>(module, "Bob")
-      .def(py::init([](const std::vector<Pair>& waterline, double amount) { return Bob{as_points(waterline), amount}; }),
+      .def(py::init([](const std::vector<Pair>& waterline, double amount) {
+             return Bob{as_points(waterline), amount};
+           }),
            py::kw_only(), py::arg("waterline"), py::arg("amount") = usual.amount)
       .def_property_readonly("waterline", [](const Bob& bob) { return as_pairs(bob.waterline); })
       .def_readonly("amount", &Bob::amount);

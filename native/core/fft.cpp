@@ -60,8 +60,8 @@ struct InverseFft2::State {
   void finish(int pair, fftwf_complex* line);
 };
 
-/// X(y, kx), `count` transformed columns from `first` on, into the rows Z = X(y) + i X(y + 1) and, by the symmetry of real
-/// rows, their other half.
+/// X(y, kx), `count` transformed columns from `first` on, into the rows Z = X(y) + i X(y + 1) and, by the symmetry of
+/// real rows, their other half.
 void InverseFft2::State::turn(const fftwf_complex* columns, int first, int count) {
   for (int pair = 0; pair < n / 2; ++pair) {
     fftwf_complex* row = rows.data + static_cast<size_t>(pair) * stride;

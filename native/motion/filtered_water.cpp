@@ -29,8 +29,9 @@ float below(float value, float ceiling) {
   return std::copysign(ceiling * (0.5f + 0.5f * over / (1 + over)), value);
 }
 
-/// Far away a pixel is longer than the tile. Of a sea that doesn't repeat itself, the waves that run across the view, which
-/// no pixel's length averages out, become fewer with the distance; those of a tile stay as many, and are damped instead.
+/// Far away a pixel is longer than the tile. Of a sea that doesn't repeat itself, the waves that run across the view,
+/// which no pixel's length averages out, become fewer with the distance; those of a tile stay as many, and are damped
+/// instead.
 double lattice_damping(double along, double side) {
   const double longest = side / (2 * std::sqrt(std::numbers::pi));
   return along <= longest ? 1 : std::sqrt(longest / along);
@@ -46,7 +47,8 @@ LocalWind::LocalWind(const GustField& field, const Moment& moment, const WaterPl
   for (const double x : {0, picture.width})
     for (const double y : {0, picture.height}) {
       const Point p = plane.level({x, y});
-      left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+      left = std::min(left, p.x), right = std::max(right, p.x), top = std::min(top, p.y),
+      bottom = std::max(bottom, p.y);
     }
   const auto before = [&](double place) { return static_cast<int>(std::floor(place / spacing_)); };
   first_column_ = before(left) - 1, first_line_ = before(top) - 1;
@@ -54,7 +56,8 @@ LocalWind::LocalWind(const GustField& field, const Moment& moment, const WaterPl
   parallel_rows(factors_.rows, 1, [&](int first, int last) {
     for (int j = first; j < last; ++j)
       for (int i = 0; i < factors_.cols; ++i) {
-        const Point level{static_cast<double>((first_column_ + i) * spacing_), static_cast<double>((first_line_ + j) * spacing_)};
+        const Point level{static_cast<double>((first_column_ + i) * spacing_),
+                          static_cast<double>((first_line_ + j) * spacing_)};
         factors_(j, i) = static_cast<float>(field.factor(plane.picture(level), moment));
       }
   });
@@ -62,14 +65,17 @@ LocalWind::LocalWind(const GustField& field, const Moment& moment, const WaterPl
 }
 
 float LocalWind::corner(int column, int line) const {
-  return factors_(std::clamp(line - first_line_, 0, factors_.rows - 1), std::clamp(column - first_column_, 0, factors_.cols - 1));
+  return factors_(std::clamp(line - first_line_, 0, factors_.rows - 1),
+                  std::clamp(column - first_column_, 0, factors_.cols - 1));
 }
 
 void LocalWind::strengthen(int block, int j, float* values) const {
   if (factors_.total() == 1) return;
   const int line = floor_div(j, spacing_);
   const float share = static_cast<float>(j - line * spacing_) / static_cast<float>(spacing_);
-  const auto at = [&](int column) { return corner(column, line) + share * (corner(column, line + 1) - corner(column, line)); };
+  const auto at = [&](int column) {
+    return corner(column, line) + share * (corner(column, line + 1) - corner(column, line));
+  };
   for (int first = 0; first < block_side; first += spacing_) {
     const int column = (block * block_side + first) / spacing_;
     const float left = at(column), step = (at(column + 1) - left) / static_cast<float>(spacing_);
@@ -110,7 +116,8 @@ void FilteredWater::keep_more(int last_line) {
   kept_.resize(rows);
   parallel_rows(rows - before, 8, [&](int first, int last) {
     for (int j = before + first; j < before + last; ++j)
-      for (int i = 0; i < kept_.cols; i += block_side) fill_block(first_block_ + i / block_side, first_line_ + j, &kept_(j, i));
+      for (int i = 0; i < kept_.cols; i += block_side)
+        fill_block(first_block_ + i / block_side, first_line_ + j, &kept_(j, i));
   });
 }
 
@@ -139,8 +146,12 @@ void FilteredWater::fill_block(int block, int j, float* values) const {
 }
 
 water_nodes FilteredWater::kept_nodes() const {
-  return {kept_[0], static_cast<int>(kept_.step1()), static_cast<float>(node_x(first_block_ * block_side)),
-          static_cast<float>(node_y(first_line_)), static_cast<float>(kept_.cols - 1), static_cast<float>(kept_.rows - 1)};
+  return {kept_[0],
+          static_cast<int>(kept_.step1()),
+          static_cast<float>(node_x(first_block_ * block_side)),
+          static_cast<float>(node_y(first_line_)),
+          static_cast<float>(kept_.cols - 1),
+          static_cast<float>(kept_.rows - 1)};
 }
 
 float FilteredWater::node(int i, int j) const {

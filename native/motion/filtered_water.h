@@ -12,8 +12,8 @@
 #include "motion/wind.h"
 
 /// One quantity of the water's surface (height or slope) as the pixels of a picture see it at one moment: averaged over
-/// each pixel's footprint, on a lattice of nodes one level pixel apart, linear between them. The lattice does not depend
-/// on the region for which nodes are kept, so a value is a function of its place alone.
+/// each pixel's footprint, on a lattice of nodes one level pixel apart, linear between them. The lattice does not
+/// depend on the region for which nodes are kept, so a value is a function of its place alone.
 namespace stillwater {
 
 /// How the tile lies on the plane.

@@ -136,7 +136,8 @@ void Ripmap::filtered_with_shear(const FootprintRow& row, double shear, float* v
   for (int j = lowest; j < centre + 2 * stretch && taps < most_taps; ++j, ++taps) {
     const double place = first + lean * (j - centre);
     const double whole = std::floor(place);
-    rows[taps] = level.samples.data() + static_cast<size_t>(wrapped(j, level.height)) * level.stride + wrapped(whole, level.width);
+    rows[taps] = level.samples.data() + static_cast<size_t>(wrapped(j, level.height)) * level.stride +
+                 wrapped(whole, level.width);
     weights[taps] = cubic((j - centre) / stretch);
     far[taps] = static_cast<float>(place - whole);
     total += weights[taps];
@@ -158,7 +159,8 @@ void Ripmap::filtered_with_shear(const FootprintRow& row, double shear, float* v
       before = here;
     }
   }
-  (has_avx2() ? spline_at_avx2 : spline_at)(line.data(), static_cast<float>(start - first), static_cast<float>(step), block, values);
+  (has_avx2() ? spline_at_avx2 : spline_at)(line.data(), static_cast<float>(start - first), static_cast<float>(step),
+                                            block, values);
 }
 
 }  // namespace stillwater

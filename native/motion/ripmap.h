@@ -19,8 +19,8 @@ namespace stillwater {
 struct FootprintRow {
   double x = 0, step = 1;  ///< of the first pixel, and from one to the next
   double y = 0;
-  double across = 0, along = 0;           ///< the footprint's standard deviations, samples; across <= along
-  double shear_first = 0, shear_step = 0; ///< at the first pixel, and from one to the next
+  double across = 0, along = 0;            ///< the footprint's standard deviations, samples; across <= along
+  double shear_first = 0, shear_step = 0;  ///< at the first pixel, and from one to the next
 };
 
 class Ripmap {

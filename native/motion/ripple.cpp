@@ -46,14 +46,19 @@ Key key_of(const Moment& moment, double amplitude) {
   const Wind& wind = moment.wind;
   const bool gusty = wind.gusts > 0;
   const Point travel = gusty ? travel_in_loop(wind.travel, moment.loop_travel, moment) : Point{};
-  return {wave_time(moment), loop_seconds(moment), wind.speed, wind.direction, amplitude, wind.gusts, travel.x, travel.y};
+  return {wave_time(moment), loop_seconds(moment), wind.speed, wind.direction,
+          amplitude,         wind.gusts,           travel.x,   travel.y};
 }
 
 }  // namespace
 
 struct RippleMotion::State {
   State(const Ripple& ripple_, const WaterPlane& plane_, const Wind& wind, cv::Size picture_, cv::Rect region_)
-      : ripple(ripple_), plane(plane_), gusts(wind.gust_size, wind.seed, picture_), picture(picture_), region(region_) {}
+      : ripple(ripple_),
+        plane(plane_),
+        gusts(wind.gust_size, wind.seed, picture_),
+        picture(picture_),
+        region(region_) {}
 
   Ripple ripple;
   WaterPlane plane;
@@ -74,16 +79,19 @@ std::shared_ptr<const Displacement> RippleMotion::State::made(const Moment& mome
   period = loop_seconds(moment);
   waves->blow(moment.wind.speed, moment.wind.direction);
   const auto local_wind = std::make_shared<const LocalWind>(gusts, moment, plane, picture);
-  const TileOnPlane on_plane{ripple.resolution * ripple.roughness / ripple.tile, static_cast<double>(ripple.resolution)};
+  const TileOnPlane on_plane{ripple.resolution * ripple.roughness / ripple.tile,
+                             static_cast<double>(ripple.resolution)};
   const auto filtered = [&](Waves::Quantity quantity, double factor, double ceiling) {
     auto levels = std::make_shared<const Ripmap>(waves->at(wave_time(moment), quantity));
     return FilteredWater(plane, picture, std::move(levels), on_plane, factor, ceiling, local_wind);
   };
   if (ripple.mode == RippleMode::height)
-    return std::make_shared<RaisedWater>(plane, picture, region, filtered(Waves::Quantity::height, amplitude, plane.height()));
+    return std::make_shared<RaisedWater>(plane, picture, region,
+                                         filtered(Waves::Quantity::height, amplitude, plane.height()));
   const double steeper = amplitude * ripple.roughness;  // the same heights over shorter ways
   return std::make_shared<MirrorWater>(plane, picture, region, filtered(Waves::Quantity::slope_right, steeper, 0),
-                                       filtered(Waves::Quantity::slope_away, steeper, 0), pixels_per_slope * picture.width);
+                                       filtered(Waves::Quantity::slope_away, steeper, 0),
+                                       pixels_per_slope * picture.width);
 }
 
 std::string name_of(RippleMode mode) { return mode == RippleMode::height ? "height" : "normal"; }
@@ -94,9 +102,11 @@ RippleMode ripple_mode_named(const std::string& name) {
   throw BadInput("mode: \"" + name + "\" is not height or normal");
 }
 
-RippleMotion::RippleMotion(const Ripple& ripple, const View& view, const Wind& wind, cv::Size picture, cv::Rect region) {
+RippleMotion::RippleMotion(const Ripple& ripple, const View& view, const Wind& wind, cv::Size picture,
+                           cv::Rect region) {
   check::in_range("roughness", ripple.roughness, 1e-4, 1e4);
   check::in_range("tile", ripple.tile, 10, 2000, "m");
+  checked(tile_of(ripple));
   state_ = std::make_unique<State>(ripple, WaterPlane(view, picture), wind, picture, region);
 }
 

@@ -27,14 +27,14 @@ std::string name_of(RippleMode mode);
 
 /// The recipe's `ripple`, with its animated numbers resolved.
 struct Ripple {
-  double amplitude = 1;   ///< 1: the significant height of a grown sea at this wind
-  double roughness = 1;   ///< how many times the tile is repeated over the same water
-  double tile = 60;       ///< metres
+  double amplitude = 1;  ///< 1: the significant height of a grown sea at this wind
+  double roughness = 1;  ///< how many times the tile is repeated over the same water
+  double tile = 60;      ///< metres
   int resolution = 256;
   RippleMode mode = RippleMode::height;
   Spectrum spectrum = Spectrum::phillips;
-  double fetch = 100;     ///< km
-  double depth = 200;     ///< m
+  double fetch = 100;  ///< km
+  double depth = 200;  ///< m
   std::uint64_t seed = 0;
 };
 

@@ -2,7 +2,8 @@
 
 #include "motion/ripple_kernel.h"
 
-void weighted_rows_avx2(const float* const* rows, const float* near, const float* far, int taps, int count, float* sum) {
+void weighted_rows_avx2(const float* const* rows, const float* near, const float* far, int taps, int count,
+                        float* sum) {
   weighted_rows(rows, near, far, taps, count, sum);
 }
 
@@ -22,6 +23,7 @@ void raised_line_avx2(const struct raised_water* water, const float* heights, fl
   raised_line(water, heights, y, count, to_y);
 }
 
-void mirror_move_avx2(const struct mirror_water* water, int rounds, float sign, float* px, float* py, int count, int* left_out) {
+void mirror_move_avx2(const struct mirror_water* water, int rounds, float sign, float* px, float* py, int count,
+                      int* left_out) {
   mirror_move(water, rounds, sign, px, py, count, left_out);
 }

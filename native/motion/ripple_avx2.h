@@ -8,4 +8,5 @@ void spline_at_avx2(const float* coefficients, float x, float step, int count, f
 void raised_map_avx2(const struct raised_water* water, float* px, float* py, int count, int* left_out);
 void raised_unmap_avx2(const struct raised_water* water, float* px, float* py, int count, int* left_out);
 void raised_line_avx2(const struct raised_water* water, const float* heights, float y, int count, float* to_y);
-void mirror_move_avx2(const struct mirror_water* water, int rounds, float sign, float* px, float* py, int count, int* left_out);
+void mirror_move_avx2(const struct mirror_water* water, int rounds, float sign, float* px, float* py, int count,
+                      int* left_out);

@@ -4,7 +4,8 @@
 /// and ripple.cpp (SSE4.2) and ripple_avx2.cpp.
 
 /// sum[i] = total over t of near[t] rows[t][i] + far[t] rows[t][i + 1].
-static inline void weighted_rows(const float* const* rows, const float* near, const float* far, int taps, int count, float* sum) {
+static inline void weighted_rows(const float* const* rows, const float* near, const float* far, int taps, int count,
+                                 float* sum) {
   for (int i = 0; i < count; ++i) sum[i] = near[0] * rows[0][i] + far[0] * rows[0][i + 1];
   for (int t = 1; t < taps; ++t) {
     const float *row = rows[t], a = near[t], b = far[t];
@@ -12,8 +13,8 @@ static inline void weighted_rows(const float* const* rows, const float* near, co
   }
 }
 
-/// Points that a kernel below takes at most: results stand in arrays of its own until all are known, so that compilers see
-/// that no result is read as a coefficient.
+/// Points that a kernel below takes at most: results stand in arrays of its own until all are known, so that compilers
+/// see that no result is read as a coefficient.
 enum { water_batch = 64 };
 
 /// The cubic B-spline with these coefficients at x + i step, 1 <= x; the coefficients reach 2 beyond the last place.
@@ -74,8 +75,7 @@ static inline float raised_share(const struct raised_water w, float height, floa
 }
 
 /// RaisedWater::map of picture points whose nodes are kept; the others stay and are marked in `left_out`.
-static inline void raised_map(const struct raised_water* water, float* px, float* py, int count,
-                       int* left_out) {
+static inline void raised_map(const struct raised_water* water, float* px, float* py, int count, int* left_out) {
   const struct raised_water w = *water;
   float to_x[water_batch], to_y[water_batch];
   int out[water_batch];
@@ -96,8 +96,7 @@ static inline void raised_map(const struct raised_water* water, float* px, float
 }
 
 /// RaisedWater::unmap, in the same way.
-static inline void raised_unmap(const struct raised_water* water, float* px, float* py, int count,
-                         int* left_out) {
+static inline void raised_unmap(const struct raised_water* water, float* px, float* py, int count, int* left_out) {
   const struct raised_water w = *water;
   float to_x[water_batch], to_y[water_batch];
   int out[water_batch];
@@ -114,9 +113,10 @@ static inline void raised_unmap(const struct raised_water* water, float* px, flo
     const float height = water_between(w.heights, from_x, from_y, &down);
     const float missed = column - raised_share(w, height, below) * (w.pull + w.up_z * from_y);
     const float steepness = 1 - (down * below + height) * w.kappa_of_height * w.pull;
-    const int smooth = (steepness > 0.5f) & (missed < 0.5f) & (missed > -0.5f);
+    const int smooth =
+        (steepness > 0.5f) & (missed < 0.5f) & (missed > -0.5f) & water_inside(w.heights, from_x, from_y);
     const float step = missed / (steepness > 0.5f ? steepness : 0.5f) * (float)smooth;
-    const int inside = water_inside(w.sources, x, y) & water_inside(w.heights, from_x, from_y), wet = y > w.horizon;
+    const int inside = water_inside(w.sources, x, y), wet = y > w.horizon;
     out[i] = wet & !inside;
     const float dy = (column - step) * (float)(wet & inside), dx = lean * dy;
     to_x[i] = px[i] + (dx * w.along_x - dy * w.along_y);
@@ -126,7 +126,8 @@ static inline void raised_unmap(const struct raised_water* water, float* px, flo
 }
 
 /// A line of raised water: y in the picture of each column of a line at `y`.
-static inline void raised_line(const struct raised_water* water, const float* heights, float y, int count, float* to_y) {
+static inline void raised_line(const struct raised_water* water, const float* heights, float y, int count,
+                               float* to_y) {
   const struct raised_water w = *water;
   const float below = y > w.horizon ? y - w.horizon : 0;
   const float pull = w.pull + w.up_z * y;
@@ -142,10 +143,10 @@ struct mirror_water {
 
 enum { mirror_rounds = 4 };
 
-/// MirrorWater::unmap (one round, backwards) and map (the fixed point), of picture points whose nodes are kept; the others
-/// stay and are marked in `left_out`.
-static inline void mirror_move(const struct mirror_water* water, int rounds, float sign, float* px, float* py, int count,
-                               int* left_out) {
+/// MirrorWater::unmap (one round, backwards) and map (the fixed point), of picture points whose nodes are kept; the
+/// others stay and are marked in `left_out`.
+static inline void mirror_move(const struct mirror_water* water, int rounds, float sign, float* px, float* py,
+                               int count, int* left_out) {
   const struct mirror_water w = *water;
   float from_x[water_batch], from_y[water_batch], x[water_batch], y[water_batch];
   int out[water_batch];
@@ -156,12 +157,12 @@ static inline void mirror_move(const struct mirror_water* water, int rounds, flo
   }
   for (int round = 0; round < rounds; ++round)
     for (int i = 0; i < count; ++i) {
-      const float below = y[i] > w.horizon ? y[i] - w.horizon : 0;
+      const float under = y[i] - w.horizon, below = under > 0 ? under : 0;
       const float scale = sign * w.pixels * below / (below + w.fade);
       float down;
       const float dx = scale * water_between(w.right, x[i], y[i], &down);
       const float dy = -scale * water_between(w.away, x[i], y[i], &down);
-      out[i] |= (below > 0) & !water_inside(w.right, x[i], y[i]);
+      out[i] |= (under > 0) & (water_inside(w.right, x[i], y[i]) ^ 1);
       x[i] = from_x[i] + dx, y[i] = from_y[i] + dy;
     }
   for (int i = 0; i < count; ++i) {

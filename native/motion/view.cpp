@@ -31,9 +31,7 @@ const Segment& checked_horizon(const View& view) {
 bool View::any_water(cv::Rect box) const {
   const Segment& line = checked_horizon(*this);
   const Point along = rightwards(line);
-  const auto below = [&](double x, double y) {
-    return along.x * (y - line.from.y) - along.y * (x - line.from.x) > 0;
-  };
+  const auto below = [&](double x, double y) { return along.x * (y - line.from.y) - along.y * (x - line.from.x) > 0; };
   const double left = box.x, right = box.x + box.width, top = box.y, bottom = box.y + box.height;
   return below(left, top) || below(right, top) || below(left, bottom) || below(right, bottom);
 }

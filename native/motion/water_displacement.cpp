@@ -119,16 +119,22 @@ void RaisedWater::keep_region(cv::Rect region, int picture_height) {
   const double top = std::max(box.top - 1, plane_.horizon()), bottom = box.bottom + 1;
   const int first_target = heights_.line(top), last_target = heights_.line(bottom) + 1;
   const int first = heights_.line(std::max(plane_.horizon(), furthest_source(top, -heights_.bound()))) - 1;
-  const int most = std::min(heights_.line(furthest_source(bottom, heights_.bound())) + 1, last_target + 2 * picture_height);
+  const int most =
+      std::min(heights_.line(furthest_source(bottom, heights_.bound())) + 1, last_target + 2 * picture_height);
   // Looking down, what is seen in a column comes from a little beside it.
   const double beside = plane_.up_z() == 0 ? 1 : Ripmap::block;
-  heights_.keep(heights_.column(box.left - beside), heights_.column(box.right + beside) + 1, std::min(first, first_target), last_target);
-  while (heights_.last_line() < most && !all_seen(last_target)) heights_.keep_more(std::min(most, heights_.last_line() + growth));
+  heights_.keep(heights_.column(box.left - beside), heights_.column(box.right + beside) + 1,
+                std::min(first, first_target), last_target);
+  while (heights_.last_line() < most && !all_seen(last_target))
+    heights_.keep_more(std::min(most, heights_.last_line() + growth));
   water_.heights = heights_.kept_nodes();
 
   sources_.create(last_target + 1 - first_target, static_cast<int>(water_.heights.last_column) + 1);
-  water_.sources = {sources_[0], static_cast<int>(sources_.step1()), water_.heights.x,
-                    static_cast<float>(heights_.node_y(first_target)), water_.heights.last_column,
+  water_.sources = {sources_[0],
+                    static_cast<int>(sources_.step1()),
+                    water_.heights.x,
+                    static_cast<float>(heights_.node_y(first_target)),
+                    water_.heights.last_column,
                     static_cast<float>(sources_.rows - 1)};
   parallel_rows(sources_.cols, strip, [&](int begin, int end) { sweep(begin, end - begin); });
 }
@@ -137,7 +143,8 @@ void RaisedWater::keep_region(cv::Rect region, int picture_height) {
 bool RaisedWater::all_seen(int last_target) const {
   const int j = heights_.last_line();
   std::vector<float> to_y(static_cast<size_t>(heights_.kept_nodes().last_column) + 1);
-  raised_line(&water_, heights_.kept_line(j), static_cast<float>(heights_.node_y(j)), static_cast<int>(to_y.size()), to_y.data());
+  raised_line(&water_, heights_.kept_line(j), static_cast<float>(heights_.node_y(j)), static_cast<int>(to_y.size()),
+              to_y.data());
   return *std::min_element(to_y.begin(), to_y.end()) >= heights_.node_y(last_target);
 }
 
@@ -185,14 +192,17 @@ void RaisedWater::map_level(Point& level) const {
 }
 
 /// The search for one place, where no nodes are kept: from where the highest wave could come from, upwards to the first
-/// line that reaches it.
+/// line that reaches it. Steps are pixels, far below the horizon a share of the distance to it.
 void RaisedWater::unmap_level(Point& level) const {
   const Point to = level;
-  const auto source = [&](double y) { return Point{to.x * (water_.pull + water_.up_z * y) / (water_.pull + water_.up_z * to.y), y}; };
+  const auto source = [&](double y) {
+    return Point{to.x * (water_.pull + water_.up_z * y) / (water_.pull + water_.up_z * to.y), y};
+  };
   const auto seen_at = [&](double y) { return y + lift(raise(source(y)).share, y); };
   double nearer = furthest_source(to.y, heights_.bound()), before = seen_at(nearer);
-  for (double y = nearer - 1; nearer > plane_.horizon(); nearer = y, --y) {
-    y = std::max(y, plane_.horizon());
+  while (nearer > plane_.horizon()) {
+    const double below = nearer - plane_.horizon();
+    double y = std::max(plane_.horizon(), nearer - std::max(1.0, below / 256));
     const double here = seen_at(y);
     if (here <= to.y) {
       for (double low = y, at_low = here; nearer - low > 1e-3 && before > at_low;) {
@@ -205,22 +215,24 @@ void RaisedWater::unmap_level(Point& level) const {
       level = source(y);
       return;
     }
-    before = here;
+    nearer = y, before = here;
   }
 }
 
 void RaisedWater::map(float* x, float* y, int count) const {
   if (at_rest()) return;
   const auto kernel = has_avx2() ? raised_map_avx2 : raised_map;
-  in_batches(plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, a, b, batch, out); },
-             [&](Point& level) { map_level(level); });
+  in_batches(
+      plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, a, b, batch, out); },
+      [&](Point& level) { map_level(level); });
 }
 
 void RaisedWater::unmap(float* x, float* y, int count) const {
   if (at_rest()) return;
   const auto kernel = has_avx2() ? raised_unmap_avx2 : raised_unmap;
-  in_batches(plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, a, b, batch, out); },
-             [&](Point& level) { unmap_level(level); });
+  in_batches(
+      plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, a, b, batch, out); },
+      [&](Point& level) { unmap_level(level); });
 }
 
 MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater slopes_right,
@@ -254,14 +266,16 @@ Point MirrorWater::displaced(Point level) const {
 void MirrorWater::move(int rounds, float sign, float* x, float* y, int count) const {
   if (at_rest()) return;
   const auto kernel = has_avx2() ? mirror_move_avx2 : mirror_move;
-  in_batches(plane_, x, y, count, [&](float* a, float* b, int batch, int* out) { kernel(&water_, rounds, sign, a, b, batch, out); },
-             [&](Point& level) {
-               const Point from = level;
-               for (int round = 0; round < rounds; ++round) {
-                 const Point d = displaced(level);
-                 level = {from.x + sign * d.x, from.y + sign * d.y};
-               }
-             });
+  in_batches(
+      plane_, x, y, count,
+      [&](float* a, float* b, int batch, int* out) { kernel(&water_, rounds, sign, a, b, batch, out); },
+      [&](Point& level) {
+        const Point from = level;
+        for (int round = 0; round < rounds; ++round) {
+          const Point d = displaced(level);
+          level = {from.x + sign * d.x, from.y + sign * d.y};
+        }
+      });
 }
 
 void MirrorWater::map(float* x, float* y, int count) const { move(mirror_rounds, 1, x, y, count); }

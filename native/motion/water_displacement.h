@@ -10,10 +10,11 @@ namespace stillwater {
 
 /// Mode "height": points of the plane are raised.
 ///
-/// In perspective a raised point moves along the line to the vertical vanishing point. Where the waves are steeper than the
-/// line of sight, crests hide what lies behind them: several points of the still picture come to one place, and unmap()
-/// gives the nearest to the eye, the one that is seen. For the nodes of the region it is found at once, by a sweep of each
-/// column from near to far ("floating horizon": Anderson 1982, "Hidden line elimination in projected grid surfaces").
+/// In perspective a raised point moves along the line to the vertical vanishing point. Where the waves are steeper than
+/// the line of sight, crests hide what lies behind them: several points of the still picture come to one place, and
+/// unmap() gives the nearest to the eye, the one that is seen. For the nodes of the region it is found at once, by a
+/// sweep of each column from near to far ("floating horizon": Anderson 1982, "Hidden line elimination in projected grid
+/// surfaces").
 class RaisedWater final : public Displacement {
  public:
   /// `region`, picture pixels: where unmap() will be asked; elsewhere it searches point by point.
@@ -45,9 +46,10 @@ class RaisedWater final : public Displacement {
   Plane sources_;  ///< for nodes: y of what is seen there, minus the node's
 };
 
-/// Mode "normal": the picture on the water is taken for a mirror image, which a facet shifts by its slope: sideways by the
-/// slope to the right, up by the slope away; less close to the horizon, which no mirror image crosses. The facet that does
-/// it is the one at the place where the image is seen, so unmap() is direct, and map() its inverse by a fixed point.
+/// Mode "normal": the picture on the water is taken for a mirror image, which a facet shifts by its slope: sideways by
+/// the slope to the right, up by the slope away; less close to the horizon, which no mirror image crosses. The facet
+/// that does it is the one at the place where the image is seen, so unmap() is direct, and map() its inverse by a fixed
+/// point.
 class MirrorWater final : public Displacement {
  public:
   /// `region`, picture pixels: where it will mostly be asked. `pixels_per_slope`: displacement for a slope of 1.

@@ -17,14 +17,6 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr int lanes = 8;  // columns of turns start at multiples of 8 floats
 
-const WaveTile& checked(const WaveTile& tile) {
-  check::in_range("tile", tile.side, 1e-3, 2000, "m");
-  check::power_of_two("resolution", tile.resolution, 16, 2048);
-  check::positive("fetch", tile.fetch, "km");
-  check::positive("depth", tile.depth, "m");
-  return tile;
-}
-
 /// What divides the spectrum of heights to give that of their cubic B-spline's coefficients, one axis.
 double spline_response(int wave, int n) { return (2 + std::cos(turn * wave / n)) / 3; }
 
@@ -32,6 +24,14 @@ double spline_response(int wave, int n) { return (2 + std::cos(turn * wave / n))
 bool highest(int kx, int ky, int n) { return kx == n / 2 || std::abs(ky) == n / 2; }
 
 }  // namespace
+
+const WaveTile& checked(const WaveTile& tile) {
+  check::in_range("tile", tile.side, 1e-3, 2000, "m");
+  check::power_of_two("resolution", tile.resolution, 16, 2048);
+  check::positive("fetch", tile.fetch, "km");
+  check::positive("depth", tile.depth, "m");
+  return tile;
+}
 
 Waves::Waves(const WaveTile& tile, double period)
     : tile_(checked(tile)),

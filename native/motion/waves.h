@@ -22,12 +22,15 @@ struct WaveTile {
   double side = 60;      ///< metres
   int resolution = 256;  ///< samples a side, a power of two, 16 .. 2048
   Spectrum spectrum = Spectrum::phillips;
-  double fetch = 100;    ///< km
-  double depth = 200;    ///< m
+  double fetch = 100;  ///< km
+  double depth = 200;  ///< m
   std::uint64_t seed = 0;
   /// The tile holds the coefficients of the periodic cubic B-spline through the heights instead of the heights.
   bool spline = false;
 };
+
+/// The tile itself. Throws BadInput where a number is outside its range.
+const WaveTile& checked(const WaveTile& tile);
 
 class Waves {
  public:
@@ -51,14 +54,14 @@ class Waves {
   WaveTile tile_;
   double speed_ = 0, direction_ = 0;
   int half_, stride_;
-  std::vector<double> turns_;                ///< omega / 2 pi of the quarter kx, ky >= 0, ky running
-  std::vector<std::complex<float>> noise_;   ///< xi / sqrt 2, all n x n
-  std::vector<float> modes_;                 ///< four columns for each kx, see wave_modes() in waves_kernel.h
+  std::vector<double> turns_;               ///< omega / 2 pi of the quarter kx, ky >= 0, ky running
+  std::vector<std::complex<float>> noise_;  ///< xi / sqrt 2, all n x n
+  std::vector<float> modes_;                ///< four columns for each kx, see wave_modes() in waves_kernel.h
   InverseFft2 transform_;
 };
 
-/// Heights of one tile, metres, rows away from the viewer, under a wind of `speed` m/s to `direction` degrees. `period` as in
-/// Waves; `seconds` in either case. Throws BadInput.
+/// Heights of one tile, metres, rows away from the viewer, under a wind of `speed` m/s to `direction` degrees. `period`
+/// as in Waves; `seconds` in either case. Throws BadInput.
 Plane wave_heights(const WaveTile& tile, double speed, double direction, double seconds, double period);
 
 }  // namespace stillwater

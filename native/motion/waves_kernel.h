@@ -23,7 +23,8 @@ static inline void wave_phases(const double* turns, double time, int count, floa
 
 /// One column of the half spectrum: real = m0 cos + m1 sin, imaginary = m2 cos + m3 sin, where m0 .. m3 are columns of
 /// `modes`, `stride` apart: with A(k) = a + ib and A(-k) = p - iq they are a + p, b - q, b + q, p - a.
-static inline void wave_modes(const float* modes, int stride, const float* cosines, const float* sines, int count, float* out) {
+static inline void wave_modes(const float* modes, int stride, const float* cosines, const float* sines, int count,
+                              float* out) {
   const float *m0 = modes, *m1 = m0 + stride, *m2 = m1 + stride, *m3 = m2 + stride;
   for (int i = 0; i < count; ++i) {
     out[2 * i] = m0[i] * cosines[i] + m1[i] * sines[i];

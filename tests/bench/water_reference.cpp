@@ -13,7 +13,8 @@ int main(int, char** arguments) {
   float* tile = fftwf_alloc_real(static_cast<size_t>(n) * n);
   const fftwf_plan plan = fftwf_plan_dft_c2r_2d(n, n, spectrum, tile, FFTW_MEASURE);
   while (std::getchar() != EOF) {
-    for (int i = 0; i < n * (n / 2 + 1); ++i) spectrum[i][0] = static_cast<float>(i % 7), spectrum[i][1] = static_cast<float>(i % 5);
+    for (int i = 0; i < n * (n / 2 + 1); ++i)
+      spectrum[i][0] = static_cast<float>(i % 7), spectrum[i][1] = static_cast<float>(i % 5);
     const auto start = std::chrono::steady_clock::now();
     fftwf_execute(plan);
     std::printf("%.9f\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -51,8 +51,8 @@ def test_an_even_lift_is_heave_without_roll():
 
 
 def test_one_plane_wave_in_closed_form():
-    """Waterline from -a to a about x0, lift A sin(k (x - x0) + phi): the mean is A sin(phi) sinc(ka), the regression's slope
-    3 A cos(phi) (sin(ka) / (ka)^2 - cos(ka) / (ka)) / a."""
+    """Waterline from -a to a about x0, lift A sin(k (x - x0) + phi): the mean is A sin(phi) sin(ka) / (ka), the
+    regression's slope 3 A cos(phi) (sin(ka) / (ka)^2 - cos(ka) / (ka)) / a."""
     x0, a, height = 320.0, 90.0, 6.0
     line = [(x0 - a, 300), (x0 + a, 300)]
     for k, phi in ((0.004, 0.3), (0.02, 1.0), (0.05, -0.7)):
@@ -122,7 +122,7 @@ def test_the_line_at_rest_is_fitted_by_least_squares():
     along = np.linalg.svd(sampled - middle)[2][0]
     (x0, y0), (x1, y1) = engine.fitted_waterline(engine.Bob(waterline=WATERLINE))
     for x, y in ((x0, y0), (x1, y1)):
-        assert abs(np.cross(np.array([x, y]) - middle, along)) < 1e-9
+        assert abs((x - middle[0]) * along[1] - (y - middle[1]) * along[0]) < 1e-9
     assert x0 == pytest.approx(200, abs=2) and x1 == pytest.approx(380, abs=2)
 
 

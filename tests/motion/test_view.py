@@ -81,7 +81,10 @@ def test_an_upright_horizon_has_its_water_at_the_right():
     ("view", "sentence"),
     [
         ({}, "view.horizon: none is not a line, which water needs"),
-        ({"horizon": ((3, 4), (3, 4))}, "view.horizon: a line from a point to itself is not a line with two different ends"),
+        (
+            {"horizon": ((3, 4), (3, 4))},
+            "view.horizon: a line from a point to itself is not a line with two different ends",
+        ),
         ({"horizon": ((0, 0), (float("nan"), 1))}, "view.horizon: nan is not a finite number"),
         ({"horizon": ((0, 0), (9, 1)), "fov": 4}, "view.fov: 4 is not between 5 and 150 (degrees)"),
         ({"horizon": ((0, 0), (9, 1)), "height": 0}, "view.height: 0 is not above 0 (m)"),

@@ -63,10 +63,10 @@ def ripple(
 
     size: (width, height) of the picture, pixels.
     frame: from 1 on, may be fractional.
-    horizon: ((x, y), (x, y)), two points of it, picture pixels, any tilt, inside or outside the picture.
+    horizon: ((x, y), (x, y)), two points of it, picture pixels; any tilt, in the picture or not.
     fov: horizontal field of view, degrees, 5 .. 150. height: of the eye over the water, m.
-    wind: a Wind; None = the default one. Its direction is over the ground: 0 = to the right along the horizon, 90 = away.
-    fps: frames per second. loop: period in frames, to multiples of whose inverse the waves' frequencies are rounded.
+    wind: a Wind; None = the default one. Its direction, over the ground: 0 = right along the horizon, 90 = away.
+    fps: frames per second. loop: period in frames; frequencies are rounded to multiples of its inverse.
     amplitude, roughness, tile, resolution, mode, spectrum, fetch, depth, seed: see Ripple.
     forward: False = where to sample minus here (what the nearest crest shows); True = where the point of the still
         picture goes minus where it was.
@@ -93,11 +93,12 @@ def wave_heights(
 ):
     """The water's heights at a time, amplitude 1, over the periodic tile.
 
-    seconds: time since frame 1. loop_seconds: period to multiples of whose inverse frequencies are rounded; None = none.
+    seconds: since frame 1. loop_seconds: period; frequencies are rounded to multiples of its inverse; None = none.
     tile: side, m. resolution, spectrum, fetch, depth, seed: see Ripple. wind: a Wind; None = the default one.
 
-    Returns float32, resolution x resolution, m: rows away from the viewer, columns to the right, tile / resolution apart.
-    Deep water, omega^2 = g k; for "tma", whose water is shallow, omega^2 = g k tanh(k depth). Raises BadInput (a ValueError).
+    Returns float32, resolution x resolution, m: rows away from the viewer, columns to the right.
+    Deep water, omega^2 = g k; for "tma", whose water may be shallow, omega^2 = g k tanh(k depth).
+    Raises BadInput (a ValueError).
     Source: Tessendorf 2001, eq. 36 to 43; METHODS.md 1.
     """
     wind = wind or Wind()
