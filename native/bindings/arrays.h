@@ -3,11 +3,12 @@
 #include <pybind11/numpy.h>
 
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/image.h"
 
-/// numpy <-> image types. Arrays are C-contiguous float32 H x W x C; pybind11 converts what is not.
+/// numpy <-> image types. Arrays are C-contiguous float32 (labels: int32) H x W x C; pybind11 converts what is not.
 namespace stillwater {
 
 namespace py = pybind11;
@@ -31,13 +32,14 @@ cv::Mat_<Pixel> as_image(const FloatArray& array, const std::string& name) {
 
 /// An array that shares the image's memory and keeps it alive.
 template <class Pixel>
-py::array_t<float> as_array(const cv::Mat_<Pixel>& image) {
+py::array_t<typename cv::DataType<Pixel>::channel_type> as_array(const cv::Mat_<Pixel>& image) {
+  using Number = typename cv::DataType<Pixel>::channel_type;
   constexpr py::ssize_t channels = cv::DataType<Pixel>::channels;
   auto* kept = new cv::Mat(image.isContinuous() ? image : image.clone());
   const py::capsule owner(kept, [](void* p) { delete static_cast<cv::Mat*>(p); });
   std::vector<py::ssize_t> shape{kept->rows, kept->cols};
   if (channels > 1) shape.push_back(channels);
-  return py::array_t<float>(shape, reinterpret_cast<const float*>(kept->data), owner);
+  return py::array_t<Number>(shape, reinterpret_cast<const Number*>(kept->data), owner);
 }
 
 }  // namespace stillwater

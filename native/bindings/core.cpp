@@ -16,6 +16,11 @@ void bind_core(py::module_& module) {
   module.def("threads", &threads);
   module.def("has_avx2", &has_avx2);
   module.def("install_signal_handler", &install_signal_handler);
+  module.def("end_with_standard_input", &end_with_standard_input);
+  module.def("process_runs", &process_runs, py::arg("id"));
+  py::class_<TemporaryFile>(module, "TemporaryFile")
+      .def(py::init<const std::string&>(), py::arg("path"))
+      .def("keep_as", &TemporaryFile::keep_as, py::arg("path"));
   module.def(
       "random_uniform",
       [](std::uint64_t seed, std::int64_t a, std::int64_t b, std::int64_t c) { return random_uniform(seed, {a, b, c}); },

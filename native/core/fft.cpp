@@ -2,54 +2,91 @@
 
 #include <fftw3.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
+#include <new>
+#include <string>
 #include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace stillwater {
 namespace {
 
-// One cache line more than a row needs: rows a power of two apart would share the same cache sets.
+// One cache line more than a line needs: lines a power of two apart would share the same cache sets.
 constexpr int padding = 8;
 
-int complex_stride(int n) { return n / 2 + padding; }
+/// Columns that are turned together: a cache line of the rows.
+constexpr int strip = 8;
 
-struct Plans {
-  fftwf_plan columns, rows;
+struct Buffer {
+  fftwf_complex* data;
+
+  explicit Buffer(size_t count) : data(fftwf_alloc_complex(count)) {
+    if (!data) throw std::bad_alloc();
+  }
+  ~Buffer() { fftwf_free(data); }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
 };
 
-Plans plans_for(int n, fftwf_complex* buffer) {
+/// The one plan of a size: a contiguous line, out of place.
+fftwf_plan plan_for(int n) {
   static std::mutex mutex;
-  static std::map<int, Plans> kept;
+  static std::map<int, fftwf_plan> kept;
   const std::lock_guard lock(mutex);
   const auto found = kept.find(n);
   if (found != kept.end()) return found->second;
-  const int half = n / 2 + 1, stride = complex_stride(n);
-  const Plans plans{
-      fftwf_plan_many_dft(1, &n, half, buffer, nullptr, stride, 1, buffer, nullptr, stride, 1, FFTW_BACKWARD,
-                          FFTW_ESTIMATE),
-      fftwf_plan_many_dft_c2r(1, &n, n, buffer, nullptr, 1, stride, reinterpret_cast<float*>(buffer), nullptr, 1,
-                              2 * stride, FFTW_ESTIMATE)};
-  if (!plans.columns || !plans.rows) throw NotConverged("no Fourier transform can be planned for this size");
-  return kept.emplace(n, plans).first->second;
+  const Buffer from(n), to(n);
+  const fftwf_plan plan = fftwf_plan_dft_1d(n, from.data, to.data, FFTW_BACKWARD, FFTW_ESTIMATE);
+  if (!plan) throw NotConverged("no Fourier transform can be planned for this size");
+  return kept.emplace(n, plan).first->second;
 }
 
 }  // namespace
 
 struct InverseFft2::State {
-  int n;
-  fftwf_complex* buffer;
-  Plans plans;
+  int n, stride;  // of the rows, complex numbers
+  fftwf_plan plan;
+  Buffer rows;
 
-  explicit State(int size) : n(size), buffer(fftwf_alloc_complex(static_cast<size_t>(size) * complex_stride(size))) {
-    if (!buffer) throw std::bad_alloc();
-    plans = plans_for(n, buffer);
-  }
-  ~State() { fftwf_free(buffer); }
+  explicit State(int size)
+      : n(size), stride(size + padding), plan(plan_for(size)), rows(static_cast<size_t>(size) / 2 * (size + padding)) {}
+
+  void turn(const fftwf_complex* columns, int first, int count);
+  void finish(int pair, fftwf_complex* line);
 };
+
+/// X(y, kx), `count` transformed columns from `first` on, into the rows Z = X(y) + i X(y + 1) and, by the symmetry of real
+/// rows, their other half.
+void InverseFft2::State::turn(const fftwf_complex* columns, int first, int count) {
+  for (int pair = 0; pair < n / 2; ++pair) {
+    fftwf_complex* row = rows.data + static_cast<size_t>(pair) * stride;
+    for (int j = 0; j < count; ++j) {
+      const float* x = columns[static_cast<size_t>(j) * stride + 2 * pair];
+      row[first + j][0] = x[0] - x[3];
+      row[first + j][1] = x[1] + x[2];
+    }
+    for (int j = first == 0 ? 1 : 0; j < count; ++j) {
+      const float* x = columns[static_cast<size_t>(j) * stride + 2 * pair];
+      row[n - first - j][0] = x[0] + x[3];
+      row[n - first - j][1] = x[2] - x[1];
+    }
+  }
+}
+
+/// Transforms a pair of rows and parts them.
+void InverseFft2::State::finish(int pair, fftwf_complex* line) {
+  fftwf_complex* row = rows.data + static_cast<size_t>(pair) * stride;
+  fftwf_execute_dft(plan, row, line);
+  float* upper = row[0];
+  float* lower = upper + n;
+  for (int x = 0; x < n; ++x) upper[x] = line[x][0];
+  for (int x = 0; x < n; ++x) lower[x] = line[x][1];
+}
 
 InverseFft2::InverseFft2(int n) {
   check::in_range("resolution", n, 4, 4096);
@@ -63,17 +100,33 @@ InverseFft2& InverseFft2::operator=(InverseFft2&&) noexcept = default;
 
 int InverseFft2::size() const { return state_->n; }
 
-std::complex<float>* InverseFft2::spectrum_row(int ky) {
-  return reinterpret_cast<std::complex<float>*>(state_->buffer + static_cast<size_t>(ky) * complex_stride(state_->n));
+void InverseFft2::run(const Fill& fill) {
+  const int n = state_->n, half = n / 2 + 1, stride = state_->stride;
+  // The highest column stands alone and comes last: its mirror image is itself.
+  parallel_rows(n / 2, 4 * strip, [&](int first, int last) {
+    const Buffer column(n), columns(static_cast<size_t>(strip) * stride);
+    for (int kx = first; kx < last; kx += strip) {
+      const int count = std::min(strip, last - kx);
+      for (int j = 0; j < count; ++j) {
+        fill(kx + j, reinterpret_cast<std::complex<float>*>(column.data));
+        fftwf_execute_dft(state_->plan, column.data, columns.data + static_cast<size_t>(j) * stride);
+      }
+      state_->turn(columns.data, kx, count);
+    }
+  });
+  const Buffer column(n), highest(n);
+  fill(half - 1, reinterpret_cast<std::complex<float>*>(column.data));
+  fftwf_execute_dft(state_->plan, column.data, highest.data);
+  state_->turn(highest.data, half - 1, 1);
+
+  parallel_rows(n / 2, 32, [&](int first, int last) {
+    const Buffer line(n);
+    for (int pair = first; pair < last; ++pair) state_->finish(pair, line.data);
+  });
 }
 
 const float* InverseFft2::tile_row(int y) const {
-  return reinterpret_cast<const float*>(state_->buffer + static_cast<size_t>(y) * complex_stride(state_->n));
-}
-
-void InverseFft2::run() {
-  fftwf_execute_dft(state_->plans.columns, state_->buffer, state_->buffer);
-  fftwf_execute_dft_c2r(state_->plans.rows, state_->buffer, reinterpret_cast<float*>(state_->buffer));
+  return state_->rows.data[static_cast<size_t>(y / 2) * state_->stride] + static_cast<size_t>(y % 2) * state_->n;
 }
 
 }  // namespace stillwater

@@ -1,21 +1,29 @@
 #include "core/process.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include "core/error.h"
 
 #if defined(_WIN32)
 #include <io.h>
+#include <process.h>
+#include <windows.h>
 #define STILLWATER_UNLINK _unlink
+#define STILLWATER_READ _read
 #else
 #include <unistd.h>
 #define STILLWATER_UNLINK unlink
+#define STILLWATER_READ read
 #endif
 
 namespace stillwater {
@@ -37,11 +45,85 @@ extern "C" void leave_at_once(int signal_number) {
   std::_Exit(128 + signal_number);
 }
 
+#if defined(_WIN32)
+
+long own_id() { return _getpid(); }
+
+std::string host_name() {
+  char name[MAX_COMPUTERNAME_LENGTH + 1];
+  DWORD length = sizeof name;
+  return GetComputerNameA(name, &length) ? std::string(name, length) : "localhost";
+}
+
+#else
+
+long own_id() { return getpid(); }
+
+std::string host_name() {
+  char name[256];
+  if (gethostname(name, sizeof name) != 0) return "localhost";
+  name[sizeof name - 1] = '\0';
+  return name;
+}
+
+#endif
+
+/// The process that wrote a temporary file of this machine under this name; 0 for any other name.
+long writer_of(const std::string& name) {
+  const std::string host = host_name().insert(0, 1, '.') + '.', end = ".tmp.";
+  const auto tail = name.rfind(end);
+  if (name.front() != '.' || tail == std::string::npos) return 0;
+  if (name.find('.', tail + end.size()) != std::string::npos) return 0;
+  const auto dot = name.rfind('.', tail - 1);
+  if (tail == 0 || dot == std::string::npos || dot < host.size() + 1) return 0;
+  if (name.compare(dot + 1 - host.size(), host.size(), host) != 0) return 0;
+  long id = 0;
+  const char* last = name.data() + tail;
+  const auto read = std::from_chars(name.data() + dot + 1, last, id);
+  return read.ec == std::errc() && read.ptr == last && id > 0 ? id : 0;
+}
+
+bool is_registered(const std::filesystem::path& file) {
+  const std::lock_guard lock(slot_mutex);
+  std::error_code gone;
+  for (int i = 0; i < slots; ++i)
+    if (taken[i] && std::filesystem::equivalent(file, paths[i], gone)) return true;
+  return false;
+}
+
+/// A process may have had our own number before us: what we have not registered is not ours.
+bool is_left_over(const std::filesystem::path& file) {
+  const long writer = writer_of(file.filename().string());
+  return writer > 0 && (writer == own_id() ? !is_registered(file) : !process_runs(writer));
+}
+
 }  // namespace
 
 void install_signal_handler() {
   std::signal(SIGINT, leave_at_once);
   std::signal(SIGTERM, leave_at_once);
+}
+
+void end_with_standard_input() {
+  std::thread([] {
+    char thrown_away[256];
+    long count = 1;
+    while (count > 0 || (count < 0 && errno == EINTR)) count = STILLWATER_READ(0, thrown_away, sizeof thrown_away);
+    leave_at_once(SIGTERM);
+  }).detach();
+}
+
+bool process_runs(long id) {
+#if defined(_WIN32)
+  const HANDLE process = OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(id));
+  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
+  DWORD code = 0;
+  const bool running = GetExitCodeProcess(process, &code) && code == STILL_ACTIVE;
+  CloseHandle(process);
+  return running;
+#else
+  return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM;
+#endif
 }
 
 TemporaryFile::TemporaryFile(const std::string& path) : slot_(-1) {
@@ -66,6 +148,26 @@ void TemporaryFile::keep_as(const std::string& path) {
   if (failure) throw FileError(path + ": cannot be written (" + failure.message() + ")");
   taken[slot_] = false;
   slot_ = -1;
+}
+
+std::string temporary_name(const std::string& path) {
+  const std::filesystem::path file(path);
+  std::string name = file.stem().string().insert(0, 1, '.');
+  name.append(1, '.').append(host_name()).append(1, '.').append(std::to_string(own_id())).append(".tmp");
+  return (file.parent_path() / name.append(file.extension().string())).string();
+}
+
+std::vector<std::string> sweep_temporaries(const std::string& folder) {
+  std::vector<std::string> swept;
+  std::error_code failure;
+  std::filesystem::directory_iterator entry(folder, failure);
+  for (; !failure && entry != std::filesystem::directory_iterator(); entry.increment(failure))
+    if (is_left_over(entry->path()) && std::filesystem::remove(entry->path(), failure))
+      swept.push_back(entry->path().string());
+  if (failure && failure != std::errc::no_such_file_or_directory)
+    throw FileError(folder + ": cannot be swept (" + failure.message() + ")");
+  std::sort(swept.begin(), swept.end());
+  return swept;
 }
 
 }  // namespace stillwater

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 /// What the engine needs of the operating system; the only file with system calls of one kind of machine.
 namespace stillwater {
@@ -9,6 +10,13 @@ namespace stillwater {
 /// code 130 or 143: safe at any moment, also in the middle of a long write. For the command line, not for a
 /// process that somebody else owns (Blender).
 void install_signal_handler();
+
+/// From now on the process ends as SIGTERM ends it, temporary files removed, when its standard input ends: whoever
+/// started it is gone. What is read is thrown away. Watches from a thread of its own, which never touches Python.
+void end_with_standard_input();
+
+/// True where a process of this id runs on this machine, whoever owns it.
+bool process_runs(long id);
 
 /// A file that the signal handler removes. At most 64 at a time, paths up to 4095 bytes; throws BadInput beyond.
 class TemporaryFile {
@@ -24,5 +32,13 @@ class TemporaryFile {
  private:
   int slot_;
 };
+
+/// The name under which a file (with an extension) is written before it is renamed: ".NAME.HOST.PID.tmp.EXTENSION"
+/// beside "NAME.EXTENSION". Host and process tell a sweeper whose it is.
+std::string temporary_name(const std::string& path);
+
+/// Removes what processes of this machine that no longer run have left in a folder under names of
+/// temporary_name(), and gives those paths, sorted. A folder that is not there holds nothing. Throws FileError.
+std::vector<std::string> sweep_temporaries(const std::string& folder);
 
 }  // namespace stillwater

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/image.h"
 
 /// How one layer is displaced at one moment, both ways. What sway, ripple, bob and drift implement, and all that
@@ -29,6 +31,14 @@ class Displacement {
   /// Overridden where a row is cheaper than its points.
   virtual void unmap_row(float x0, float y0, float step, int count, float* x, float* y) const;
 };
+
+/// `base` as it looks in a mirror: reflected about the line through both ends of `axis` (a reflection in water, of
+/// what stands on it). Throws BadInput for an axis without length.
+std::shared_ptr<const Displacement> mirrored(std::shared_ptr<const Displacement> base, const Segment& axis);
+
+/// First the one, then, on top of it, the other. Null stands for no displacement, in the arguments and the answer.
+std::shared_ptr<const Displacement> chained(std::shared_ptr<const Displacement> first,
+                                            std::shared_ptr<const Displacement> then);
 
 /// The map as an array: for each pixel of a picture of this size, where it is sampled minus where it is.
 Field displacement_map(const Displacement& displacement, int width, int height);

@@ -2,31 +2,32 @@
 
 #include "core/image.h"
 
-/// What every engine implements for one layer: the layer as it looks at one moment, tile by tile.
+/// What every engine implements for one layer: the layer as it looks at one moment, row by row of output pixels.
 /// `frame/` asks each layer, front first, for the pixels that nothing in front of it covers.
 namespace stillwater {
 
-/// A rectangle of output pixels, no larger than tile_side a side.
-using Tile = cv::Rect;
-inline constexpr int tile_side = 64;
+/// Output pixels (x, y) .. (x + count - 1, y): at most `longest` of them.
+struct Run {
+  static constexpr int longest = 64;
+  int x, y, count;
+};
 
 class LayerMotion {
  public:
   virtual ~LayerMotion() = default;
 
-  /// True where the layer looks exactly as in the still picture at this moment (draw() copies).
+  /// True where the layer looks exactly as in the still picture at this moment.
   virtual bool at_rest() const = 0;
 
-  /// Output pixels outside are transparent.
-  virtual cv::Rect bounds() const = 0;
+  /// False where the layer is surely transparent in all of these output pixels.
+  virtual bool may_cover(const cv::Rect& tile) const = 0;
 
-  /// Premultiplied colour and coverage of the tile's pixels. `out` holds tile.width floats x 4 a row, rows
-  /// `stride` pixels apart. `needed`, one byte a pixel in rows of tile_side, is 0 where the result is not read.
-  /// Answers false where the whole tile is transparent (out is then untouched).
-  virtual bool draw(const Tile& tile, const unsigned char* needed, cv::Vec4f* out, int stride) const = 0;
+  /// Premultiplied colour and coverage of a run. Where `needed` is 0 the result is not read, and need not be made.
+  /// Answers false where the whole run is transparent (`out` is then not filled).
+  virtual bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const = 0;
 
-  /// Where the points seen in these output pixels are one frame later, minus here, output pixels. `x`, `y` hold
-  /// pixel centres in output pixels and are replaced by the flow.
+  /// Where the points seen at these places are one frame later, minus here, output pixels. `x`, `y` hold places in
+  /// output pixels (centres at + 0.5) and are replaced by the flow.
   virtual void flow(float* x, float* y, int count) const = 0;
 };
 

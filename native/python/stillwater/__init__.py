@@ -17,6 +17,20 @@ _HOMES = {
     "RecipeError": "recipe",
     "load": "recipe",
     "parse": "recipe",
+    "displace": "layers",
+    "over": "layers",
+    "Wind": "motion",
+    "drift": "motion",
+    "sway": "motion",
+    "read": "images",
+    "write": "images",
+    "read_clip": "images",
+    "srgb_to_linear": "images",
+    "linear_to_srgb": "images",
+    "Ripple": "motion",
+    "bob": "motion",
+    "ripple": "motion",
+    "wave_heights": "motion",
 }
 
 __all__ = sorted(_HOMES)

@@ -33,7 +33,7 @@ class Ripple(Part, tag="ripple"):
     """Water: a plane of waves, seen in `view`, under `wind`."""
 
     amplitude: animated(number("1 is the significant height of a grown sea at this wind", ge=0, le=1000)) = 1.0
-    roughness: number("how many times the field is tiled over the same water", gt=0, le=1e4) = 1.0
+    roughness: number("how many times the field is tiled over the same water", ge=1e-4, le=1e4) = 1.0
     tile: number("side of the wave field's tile", "m", ge=10, le=2000) = 60.0
     resolution: choice(Literal[16, 32, 64, 128, 256, 512, 1024, 2048], "wave numbers a side of the tile") = 256
     mode: choice(Literal["height", "normal"], "displaced by the height, or by the slope (mirror-like water)") = "height"

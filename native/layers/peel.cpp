@@ -1,0 +1,185 @@
+#include "layers/peel.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "layers/push_pull.h"
+
+namespace stillwater {
+namespace {
+
+constexpr int grain = 32;
+
+template <class Work>
+void each_pixel(const cv::Size& size, const Work& work) {
+  parallel_rows(size.height, grain, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < size.width; ++x) work(y, x);
+  });
+}
+
+// Confidence in a pixel of which `other` belongs to something else: falls off quickly.
+float purity(float other) {
+  const float pure = 1 - other, square = pure * pure, fourth = square * square;
+  return fourth * fourth;
+}
+
+// The box of what is above 0, grown so that a filling finds its surroundings.
+cv::Rect surroundings(const Plane& region) {
+  const cv::Rect box = cv::boundingRect(region > 0);
+  if (box.empty()) return box;
+  const int margin = std::max(32, std::max(box.width, box.height) / 4);
+  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+         cv::Rect(0, 0, region.cols, region.rows);
+}
+
+// `colour`, each pixel known as far as `confidence(y, x)` says, filled; `colour` itself where nothing is known.
+template <class Confidence>
+Rgba filled(const Rgba& colour, const Confidence& confidence) {
+  Rgba known(colour.size());
+  each_pixel(colour.size(), [&](int y, int x) {
+    const float share = confidence(y, x);
+    const cv::Vec4f& pixel = colour(y, x);
+    known(y, x) = {pixel[0] * share, pixel[1] * share, pixel[2] * share, share};
+  });
+  const bool nothing = std::all_of(known.begin(), known.end(), [](const cv::Vec4f& pixel) { return pixel[3] <= 0; });
+  return nothing ? colour.clone() : push_pull(known);
+}
+
+Plane softened(const Plane& matte, double feather) {
+  if (feather < 1e-6) return matte.clone();  // of a narrower Gaussian OpenCV can't make a kernel
+  Plane soft;
+  cv::GaussianBlur(matte, soft, cv::Size(), feather / 2, feather / 2, cv::BORDER_REPLICATE);
+  return soft;
+}
+
+// The matte goes on behind what hides it.
+void complete(Plane& matte, const Plane& hidden) {
+  const cv::Rect box = surroundings(hidden);
+  if (box.empty()) return;
+  Plane part = matte(box);
+  const Plane cover = hidden(box);
+  Rgba seen(part.size());
+  each_pixel(part.size(), [&](int y, int x) { seen(y, x) = cv::Vec4f::all(part(y, x)); });
+  const Rgba whole = filled(seen, [&](int y, int x) { return purity(cover(y, x)); });
+  each_pixel(part.size(), [&](int y, int x) {
+    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), whole(y, x)[0]), 0.0f, 1.0f);
+  });
+}
+
+class Peeling {
+ public:
+  explicit Peeling(const Rgba& picture)
+      : left_(picture.clone()), hidden_(Plane::zeros(picture.size())), solid_(Plane::ones(picture.size())) {
+    for (cv::Vec4f& pixel : left_) pixel[3] = 1;
+  }
+
+  // Takes one layer off, and leaves what lies behind it.
+  LayerImage take(const PeelLayer& layer) {
+    Plane matte = softened(*layer.matte, layer.feather);
+    complete(matte, hidden_);
+    const cv::Rect box = surroundings(matte);
+    if (box.empty()) return {};
+    const Plane part = matte(box);
+    Rgba front = front_colour(left_(box), part), back = back_colour(layer, part, box);
+    split_remainder(left_(box), part, front, back);
+    LayerImage taken = cut(front, matte, box);
+    back.copyTo(left_(box));
+    if (std::holds_alternative<Fill>(layer.fill) && std::get<Fill>(layer.fill) == Fill::none) open_behind(part, box);
+    Plane hidden = hidden_(box);
+    each_pixel(box.size(), [&](int y, int x) { hidden(y, x) = std::max(hidden(y, x), part(y, x)); });
+    return taken;
+  }
+
+  LayerImage rest() const { return cut(left_, Plane::ones(left_.size()), cv::Rect(0, 0, left_.cols, left_.rows)); }
+
+ private:
+  static Rgba front_colour(const Rgba& picture, const Plane& matte) {
+    return filled(picture, [&](int y, int x) { return matte(y, x) > 0 ? purity(1 - matte(y, x)) : 0.0f; });
+  }
+
+  Rgba back_colour(const PeelLayer& layer, const Plane& matte, const cv::Rect& box) const {
+    if (const Rgba* painted = std::get_if<Rgba>(&layer.fill)) {
+      Rgba back = (*painted)(box).clone();
+      for (cv::Vec4f& pixel : back) pixel[3] = 1;
+      return back;
+    }
+    if (std::get<Fill>(layer.fill) == Fill::none) return left_(box).clone();
+    return filled(left_(box), [&](int y, int x) { return purity(matte(y, x)); });
+  }
+
+  static void split_remainder(const Rgba& picture, const Plane& matte, Rgba& front, Rgba& back) {
+    each_pixel(picture.size(), [&](int y, int x) {
+      const float a = matte(y, x);
+      const cv::Vec4f& p = picture(y, x);
+      if (a >= 1) front(y, x) = p;
+      if (a <= 0) back(y, x) = p;
+      const cv::Vec4f share = (p - a * front(y, x) - (1 - a) * back(y, x)) * (1 / (a * a + (1 - a) * (1 - a)));
+      if (a < 1) front(y, x) += a * share;
+      if (a > 0) back(y, x) += (1 - a) * share;
+    });
+  }
+
+  // `front`, which covers `box`, times the matte, in the box of the matte.
+  LayerImage cut(const Rgba& front, const Plane& matte, const cv::Rect& box) const {
+    const Plane cover = matte(box).mul(solid_(box));
+    const cv::Rect inner = cv::boundingRect(cover > 0);
+    if (inner.empty()) return {};
+    Rgba pixels(inner.size());
+    each_pixel(inner.size(), [&](int y, int x) {
+      const float a = cover(y + inner.y, x + inner.x);
+      const cv::Vec4f& f = front(y + inner.y, x + inner.x);
+      pixels(y, x) = {a * f[0], a * f[1], a * f[2], a};
+    });
+    return with_clear_sides({pixels, inner + box.tl()}, matte.size());
+  }
+
+  // Two clear pixels on each side that is not the picture's: so that the layer's edge does not repeat there.
+  static LayerImage with_clear_sides(const LayerImage& layer, const cv::Size& picture) {
+    const cv::Rect wider = cv::Rect(layer.box.x - 2, layer.box.y - 2, layer.box.width + 4, layer.box.height + 4) &
+                           cv::Rect(cv::Point(), picture);
+    LayerImage result{Rgba::zeros(wider.size()), wider};
+    layer.pixels.copyTo(result.pixels(layer.box - wider.tl()));
+    return result;
+  }
+
+  // Nothing is behind what the layer covers wholly.
+  void open_behind(const Plane& matte, const cv::Rect& box) {
+    Plane solid = solid_(box);
+    each_pixel(matte.size(), [&](int y, int x) {
+      if (matte(y, x) >= 1) solid(y, x) = 0;
+    });
+  }
+
+  Rgba left_;     // the picture without the layers taken so far
+  Plane hidden_;  // how far they cover it
+  Plane solid_;   // 0 where nothing is behind them
+};
+
+void check_layers(const Rgba& picture, const std::vector<PeelLayer>& layers) {
+  check::not_empty("picture", picture);
+  for (size_t i = 0; i < layers.size(); ++i) {
+    const std::string place = "layers[" + std::to_string(i) + "]";
+    check::in_range(place + ".feather", layers[i].feather, 0, 1000, "px");
+    if (layers[i].matte) check::same_size(place + ".matte", *layers[i].matte, "the picture", picture);
+    else if (i + 1 < layers.size()) throw BadInput(place + ".matte: missing (only the last layer needs none)");
+    if (const Rgba* painted = std::get_if<Rgba>(&layers[i].fill))
+      check::same_size(place + ".fill", *painted, "the picture", picture);
+  }
+}
+
+}  // namespace
+
+std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers) {
+  check_layers(picture, layers);
+  Peeling peeling(picture);
+  std::vector<LayerImage> taken;
+  for (const PeelLayer& layer : layers) taken.push_back(layer.matte ? peeling.take(layer) : peeling.rest());
+  return taken;
+}
+
+}  // namespace stillwater

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "layers/layer_image.h"
+
+/// From a picture and the mattes of its layers to the layers themselves, front to back: each is taken off what is
+/// left of the picture, and the hole behind it is filled (METHODS.md 1; Chuang et al. 2005, 3.1).
+namespace stillwater {
+
+enum class Fill {
+  push_pull,  ///< smoothly, from what surrounds the hole
+  none,       ///< transparent behind what the layer covers wholly
+};
+
+struct PeelLayer {
+  std::optional<Plane> matte;                ///< 0..1, size of the picture; only the last layer needs none
+  std::variant<Fill, Rgba> fill{Fill::push_pull};  ///< or a painted background, size of the picture
+  double feather = 0;                        ///< softens the matte: a Gaussian of sigma feather / 2, px
+};
+
+/// The layers, front first. `picture` counts as opaque (its fourth channel is not read).
+///
+/// - Laid over each other at rest they give the picture: exactly where mattes are 0 or 1, else to rounding. Whatever
+///   foreground F and background B are thought to be, the remainder r = P - aF - (1-a)B is split between them:
+///   F += a r / (a^2 + (1-a)^2), B += (1-a) r / (a^2 + (1-a)^2).
+/// - F at soft edges is drawn smoothly from where the layer is whole, so that no halo of the old background moves along.
+/// - What of a matte lies hidden behind layers in front goes on smoothly from what is seen of it, never below what
+///   the matte itself says there.
+/// - The last layer without a matte covers the whole picture.
+///
+/// Throws BadInput where sizes differ, a matte is missing, or a feather is not within 0 .. 1000.
+std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers);
+
+}  // namespace stillwater

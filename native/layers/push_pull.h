@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/image.h"
+
+namespace stillwater {
+
+/// Fills what is transparent from what is not, smoothly: colours are averaged into ever smaller pictures, and each
+/// picture is laid over the next smaller one, enlarged. Pixels with coverage 1 come back as they are.
+/// (Gortler et al. 1996, "The lumigraph", 3.4: push-pull; here coverage is premultiplied alpha, and pull is `over`.)
+///
+/// `known` is premultiplied: coverage says how far a pixel is known. The result has coverage 1 everywhere. Throws
+/// BadInput where nothing at all is known.
+Rgba push_pull(const Rgba& known);
+
+}  // namespace stillwater

@@ -1,0 +1,115 @@
+#include "layers/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/cpu.h"
+#include "layers/sampling_avx2.h"
+#include "layers/sampling_kernel.h"
+
+namespace stillwater {
+namespace {
+
+void sample_plain(const float* origin, std::ptrdiff_t stride, const float* x, const float* y,
+                  const unsigned char* needed, int count, float* out) {
+  SamplingWeights w;
+  catmull_rom_weights(x, count, w.column, w.x);
+  catmull_rom_weights(y, count, w.row, w.y);
+  for (int i = 0; i < count; ++i) {
+    if (!needed[i]) continue;
+    const float* pixel = origin + (w.row[i] - 1) * stride + std::ptrdiff_t{4} * (w.column[i] - 1);
+    stillwater_v4 sum = {0, 0, 0, 0};
+    for (int row = 0; row < 4; ++row, pixel += stride) {
+      const auto* neighbour = reinterpret_cast<const stillwater_v4u*>(pixel);
+      sum += w.y[row][i] * (w.x[0][i] * neighbour[0] + w.x[1][i] * neighbour[1] + w.x[2][i] * neighbour[2] +
+                            w.x[3][i] * neighbour[3]);
+    }
+    *reinterpret_cast<stillwater_v4u*>(out + 4 * i) = within_coverage(sum);
+  }
+}
+
+// Into [-1, size]: beyond that the repeated edge has the same colour everywhere. NaN becomes -1.
+void hold(float* at, int count, int size) {
+  const float last = static_cast<float>(size);
+  for (int i = 0; i < count; ++i) {
+    const float low = at[i] > -1.0f ? at[i] : -1.0f;
+    at[i] = low < last ? low : last;
+  }
+}
+
+void wrap(float* at, int count, int size) {
+  const float period = static_cast<float>(size);
+  for (int i = 0; i < count; ++i) at[i] -= period * std::floor(at[i] / period);
+  hold(at, count, size);
+}
+
+struct Range {
+  float low, high;
+};
+
+Range range(const float* at, int count) {
+  Range found{at[0], at[0]};
+  for (int i = 1; i < count; ++i) {
+    found.low = at[i] < found.low ? at[i] : found.low;
+    found.high = at[i] > found.high ? at[i] : found.high;
+  }
+  return found;
+}
+
+}  // namespace
+
+Source::Source(const Rgba& image, Beyond beyond) : beyond_(beyond), width_(image.cols), height_(image.rows) {
+  if (empty()) return;
+  Rgba wide;
+  cv::copyMakeBorder(image, wide, 0, 0, frame, frame, beyond.wraps_x ? cv::BORDER_WRAP : cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(wide, padded_, frame, frame, 0, 0, beyond.wraps_y ? cv::BORDER_WRAP : cv::BORDER_REPLICATE);
+  map_coverage();
+}
+
+void Source::map_coverage() {
+  const int columns = (padded_.cols + block - 1) / block, rows = (padded_.rows + block - 1) / block;
+  cv::Mat_<unsigned char> covered(rows, columns, static_cast<unsigned char>(0));
+  for (int y = 0; y < padded_.rows; ++y)
+    for (int x = 0; x < padded_.cols; ++x)
+      if (padded_(y, x)[3] != 0) covered(y / block, x / block) = 1;
+  cv::integral(covered, covered_blocks_, CV_32S);
+}
+
+bool Source::is_clear(const cv::Rect& area) const {
+  if (empty()) return true;
+  if (beyond_.wraps_x || beyond_.wraps_y) return false;
+  return is_clear_inside(area);
+}
+
+// For areas that do not reach over a side that wraps.
+bool Source::is_clear_inside(const cv::Rect& area) const {
+  const auto held = [](int at, int size) { return std::clamp(at + frame, 0, size - 1) / block; };
+  const int left = held(area.x - 2, padded_.cols), right = held(area.x + area.width + 2, padded_.cols) + 1;
+  const int top = held(area.y - 2, padded_.rows), bottom = held(area.y + area.height + 2, padded_.rows) + 1;
+  const auto& sum = covered_blocks_;
+  return sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left) == 0;
+}
+
+// For places within [-1, size].
+bool Source::is_clear(const float* x, const float* y, int count) const {
+  const Range across = range(x, count), down = range(y, count);
+  const cv::Point first(static_cast<int>(across.low) - 1, static_cast<int>(down.low) - 1);
+  const cv::Point last(static_cast<int>(across.high) + 1, static_cast<int>(down.high) + 1);
+  return is_clear_inside(cv::Rect(first, last));
+}
+
+bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {
+  if (empty()) return false;
+  beyond_.wraps_x ? wrap(x, count, width_) : hold(x, count, width_);
+  beyond_.wraps_y ? wrap(y, count, height_) : hold(y, count, height_);
+  if (is_clear(x, y, count)) return false;
+  static const auto kernel = has_avx2() ? stillwater_sample_avx2 : sample_plain;
+  const float* origin = at(0, 0)->val;
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(padded_.step1());
+  for (int i = 0; i < count; i += sampling_run)
+    kernel(origin, stride, x + i, y + i, needed + i, std::min(sampling_run, count - i), out[i].val);
+  return true;
+}
+
+}  // namespace stillwater

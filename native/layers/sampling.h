@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/image.h"
+
+/// Where a displaced layer takes its colour from (Catmull and Rom 1974; Keys 1981 with a = -0.5): sixteen
+/// neighbours with the exact weights of each place, no table of places.
+namespace stillwater {
+
+/// How a source goes on beyond its sides.
+struct Beyond {
+  bool wraps_x = false, wraps_y = false;  ///< true: the image is one period of an endless one; false: its edge repeats
+};
+
+/// An image ready to be sampled: a copy with a frame of pixels around it, so that no place needs a special case, and
+/// a coarse map of where it is empty.
+class Source {
+ public:
+  Source() = default;
+  Source(const Rgba& image, Beyond beyond);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool empty() const { return width_ == 0; }
+
+  /// True where no pixel within the rectangle (index coordinates, may reach outside) has any coverage.
+  bool is_clear(const cv::Rect& area) const;
+
+  /// Colour at `count` places in index coordinates (0 = centre of the first pixel). Places whose `needed` byte is 0
+  /// are left alone. Answers false, with nothing filled in, where there is no coverage around any of them. Coverage comes out within 0 .. 1, and colour with it, so that the straight colour is kept.
+  /// `x` and `y` are used up.
+  bool sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
+
+  /// Pixel (x, y), inside the image: what sample() gives there.
+  const cv::Vec4f* at(int x, int y) const { return &padded_(y + frame, x + frame); }
+
+ private:
+  static constexpr int frame = 4;
+  static constexpr int block = 8;
+
+  void map_coverage();
+  bool is_clear(const float* x, const float* y, int count) const;
+  bool is_clear_inside(const cv::Rect& area) const;
+
+  Rgba padded_;
+  Beyond beyond_;
+  cv::Mat_<int> covered_blocks_;  ///< integral image of blocks that hold any coverage
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace stillwater

@@ -1,0 +1,145 @@
+#include "motion/shimmer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+
+namespace stillwater {
+namespace {
+
+constexpr int side = 64;  // nodes of the lattice; a power of two
+constexpr double slowest = 2, fastest = 5;  // Hz
+constexpr double half_wind = 2.5;           // m/s
+
+struct Swing {
+  float x, y;
+};
+
+// A value and its slopes along x and y, px / px.
+struct SwingSlopes {
+  Swing swing, along_x, along_y;
+};
+
+struct Weights {
+  float w[3], slope[3];
+};
+
+// Quadratic B-spline at f from the middle node, -0.5 .. 0.5.
+Weights weights(float f) {
+  const float before = 0.5f - f, after = 0.5f + f;
+  return {{0.5f * before * before, 0.75f - f * f, 0.5f * after * after}, {-before, -2 * f, after}};
+}
+
+class LeavesAtMoment : public Displacement {
+ public:
+  LeavesAtMoment(const Segment& armature, float cell, float longest, std::vector<Swing> nodes)
+      : root_x_(static_cast<float>(armature.from.x)),
+        root_y_(static_cast<float>(armature.from.y)),
+        per_cell_(1 / cell),
+        per_length_(static_cast<float>(
+            1 / std::hypot(armature.to.x - armature.from.x, armature.to.y - armature.from.y))),
+        longest_(longest),
+        nodes_(std::move(nodes)) {}
+
+  bool at_rest() const override { return longest_ == 0; }
+  float reach() const override { return longest_; }
+
+  void unmap(float* x, float* y, int count) const override {
+    for (int i = 0; i < count; ++i) {
+      const Swing swing = at(x[i], y[i]).swing;
+      x[i] += swing.x;
+      y[i] += swing.y;
+    }
+  }
+
+  // Solves q + swing(q) = p.
+  void map(float* x, float* y, int count) const override {
+    constexpr int rounds = 3;
+    for (int i = 0; i < count; ++i) {
+      const Swing first = at(x[i], y[i]).swing;
+      float qx = x[i] - first.x, qy = y[i] - first.y;
+      for (int round = 0; round < rounds; ++round) {
+        const SwingSlopes here = at(qx, qy);
+        const float error_x = qx + here.swing.x - x[i], error_y = qy + here.swing.y - y[i];
+        const float xx = 1 + here.along_x.x, xy = here.along_y.x, yx = here.along_x.y, yy = 1 + here.along_y.y;
+        const float determinant = xx * yy - xy * yx;
+        qx -= (yy * error_x - xy * error_y) / determinant;
+        qy -= (xx * error_y - yx * error_x) / determinant;
+      }
+      x[i] = qx;
+      y[i] = qy;
+    }
+  }
+
+ private:
+  SwingSlopes at(float x, float y) const {
+    const float dx = x - root_x_, dy = y - root_y_;
+    const float cell_x = std::floor(dx * per_cell_ + 0.5f), cell_y = std::floor(dy * per_cell_ + 0.5f);
+    const Weights wx = weights(dx * per_cell_ - cell_x), wy = weights(dy * per_cell_ - cell_y);
+    const int column = static_cast<int>(cell_x), row = static_cast<int>(cell_y);
+    Swing sum{0, 0}, slope_x{0, 0}, slope_y{0, 0};
+    for (int j = 0; j < 3; ++j) {
+      const Swing* line = &nodes_[static_cast<std::size_t>((row + j - 1) & (side - 1)) * side];
+      Swing value{0, 0}, slope{0, 0};
+      for (int i = 0; i < 3; ++i) {
+        const Swing node = line[(column + i - 1) & (side - 1)];
+        value.x += wx.w[i] * node.x;
+        value.y += wx.w[i] * node.y;
+        slope.x += wx.slope[i] * node.x;
+        slope.y += wx.slope[i] * node.y;
+      }
+      sum.x += wy.w[j] * value.x;
+      sum.y += wy.w[j] * value.y;
+      slope_x.x += wy.w[j] * slope.x;
+      slope_x.y += wy.w[j] * slope.y;
+      slope_y.x += wy.slope[j] * value.x;
+      slope_y.y += wy.slope[j] * value.y;
+    }
+    const float u = std::min(std::sqrt(dx * dx + dy * dy) * per_length_, 1.0f);
+    const float growth = u * u * (3 - 2 * u);
+    const float steeper = 6 * (1 - u) * per_length_ * per_length_;  // slope of growth, over dx or dy
+    const float cells = growth * per_cell_;
+    return {{growth * sum.x, growth * sum.y},
+            {cells * slope_x.x + steeper * dx * sum.x, cells * slope_x.y + steeper * dx * sum.y},
+            {cells * slope_y.x + steeper * dy * sum.x, cells * slope_y.y + steeper * dy * sum.y}};
+  }
+
+  float root_x_, root_y_, per_cell_, per_length_, longest_;
+  std::vector<Swing> nodes_;
+};
+
+}  // namespace
+
+Shimmer::Shimmer(const Segment& armature, std::uint64_t seed) : armature_(armature), leaves_(side * side) {
+  for (int i = 0; i < side * side; ++i) {
+    leaves_[i] = {static_cast<float>(slowest + (fastest - slowest) * random_uniform(seed, {i, 0, 3})),
+                  static_cast<float>(random_uniform(seed, {i, 1, 3})),
+                  static_cast<float>(random_uniform(seed, {i, 2, 3}))};
+  }
+}
+
+std::unique_ptr<const Displacement> Shimmer::at(const Moment& moment, double shimmer, double local_speed) const {
+  const double length = std::hypot(armature_.to.x - armature_.from.x, armature_.to.y - armature_.from.y);
+  const double cell = std::max(cell_share * length, 1.0);
+  const double longest = largest_swing * cell * shimmer * local_speed / (local_speed + half_wind);
+  const double loop = moment.loop_frames / moment.fps;
+  const auto turns = [&](double frequency) {
+    if (moment.loop_frames == 0) return frequency * moment.seconds();
+    return std::max(1.0, std::nearbyint(frequency * loop)) * (frames_into_loop(moment) / moment.loop_frames);
+  };
+  const auto swing = [&](double turn) {
+    return static_cast<float>(longest / std::numbers::sqrt2 * std::cos(2 * std::numbers::pi * turn));
+  };
+  std::vector<Swing> nodes(leaves_.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Leaf& leaf = leaves_[i];
+    const double turn = turns(leaf.frequency), rest = turn - std::floor(turn);
+    nodes[i] = {swing(rest + leaf.phase_x), swing(rest + leaf.phase_y)};
+  }
+  return std::make_unique<LeavesAtMoment>(armature_, static_cast<float>(cell), static_cast<float>(longest),
+                                          std::move(nodes));
+}
+
+}  // namespace stillwater

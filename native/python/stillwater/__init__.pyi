@@ -1,0 +1,25 @@
+from .images import linear_to_srgb as linear_to_srgb
+from .images import read as read
+from .images import read_clip as read_clip
+from .images import srgb_to_linear as srgb_to_linear
+from .images import write as write
+from .layers import displace as displace
+from .layers import over as over
+from .motion import Ripple as Ripple
+from .motion import Wind as Wind
+from .motion import bob as bob
+from .motion import drift as drift
+from .motion import ripple as ripple
+from .motion import sway as sway
+from .motion import wave_heights as wave_heights
+from .recipe import Document as Document
+from .recipe import RecipeError as RecipeError
+from .recipe import load as load
+from .recipe import parse as parse
+
+__version__: str
+
+class BadInput(ValueError): ...
+class FileError(OSError): ...
+class Cancelled(RuntimeError): ...
+class NotConverged(RuntimeError): ...

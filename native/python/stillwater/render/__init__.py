@@ -1,0 +1,12 @@
+"""From a recipe to its frames: everything around the engine's FrameRenderer.
+
+    resolve    recipe -> the plain numbers of one frame
+    keys       ... and the hash of all that a frame, or a preparation, depends on
+    cache      preparations, kept beside the recipe (lock: by one worker at a time)
+    prepare    picture and mattes -> layers
+    claim      which worker renders which frames
+    loop       frame after frame; what happens comes as events
+    movie      frames -> a film
+
+Start with loop.py.
+"""

@@ -1,0 +1,55 @@
+"""What happens while frames are rendered; as JSON, the lines of `render --progress json`."""
+
+from msgspec import Struct
+
+
+class Event(Struct, tag_field="event", tag=str.lower, frozen=True, omit_defaults=True):
+    """Base of all events; its JSON names it in the field `event`."""
+
+
+class Started(Event):
+    """The recipe and its files are right, the frames are this worker's."""
+
+    first: int
+    last: int
+    of: int  # frames
+    size: tuple[int, int]  # of a frame, pixels
+    folder: str
+
+
+class Preparing(Event):
+    """`share` (0..1) of what must be computed before the first frame is done."""
+
+    share: float
+    what: str
+
+
+class Frame(Event):
+    """A frame stands under its final name; `kept`: it did already, and all that it reads is unchanged."""
+
+    frame: int
+    of: int
+    seconds: float
+    path: str
+    kept: bool = False
+
+
+class Warn(Event, tag="warning"):
+    """Something is not as the recipe says, and the frames are rendered all the same."""
+
+    sentence: str
+
+
+class Done(Event):
+    """All frames are there."""
+
+    rendered: int
+    kept: int
+    seconds: float
+    movie: str | None = None
+
+
+class Error(Event):
+    """The work ended here."""
+
+    sentence: str

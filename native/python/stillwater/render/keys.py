@@ -1,0 +1,149 @@
+"""The hashes that say whether something must be computed again.
+
+A frame's key holds what that frame reads: resolved numbers, integrals, the loop, the layers' preparation, what shapes
+the file, and the version of each engine used. It does not hold the recipe's text, the package's version, the frame
+range or anything of a layer that is not seen. So a longer range keeps the frames it has.
+"""
+
+import hashlib
+
+import msgspec
+
+from ..recipe import Recipe
+from ..recipe.mattes import ExemplarFill, FileFill, FileMatte
+from ..recipe.stochastic import Bob, Drift, Ripple, Sway
+from .resolve import Now, Timeline
+
+# Raised by who changes what an engine computes: frames and preparations made by another version are made again.
+ENGINES = {
+    "picture": 1,
+    "layers": 1,
+    "frame": 1,
+    "wind": 1,
+    "still": 1,
+    "sway": 1,
+    "ripple": 1,
+    "bob": 1,
+    "drift": 1,
+}
+
+
+def hashed(facts) -> str:
+    """32 hexadecimal digits for anything that JSON can say."""
+    return hashlib.blake2b(msgspec.json.encode(facts, order="deterministic"), digest_size=16).hexdigest()
+
+
+def stack_key(recipe: Recipe, digests: dict[str, str]) -> str:
+    """Of the layers cut out of the picture. `digests`: the hash of each file the recipe names."""
+    layers = [
+        {"matte": _matte(layer.matte, digests), "fill": _fill(layer.fill, digests), "feather": layer.feather}
+        for layer in recipe.layers
+    ]
+    layers[-1]["fill"] = None  # nothing lies behind the last layer
+    return hashed(
+        {
+            "picture": digests[recipe.picture],
+            "colour_space": recipe.colour_space,
+            "layers": layers,
+            "engines": _versions("picture", "layers"),
+        }
+    )
+
+
+class FrameKeys:
+    """The keys of a recipe's frames, written at `scale` into files of one kind."""
+
+    def __init__(self, timeline: Timeline, stack: str, size: tuple[int, int], scale: float):
+        self._timeline = timeline
+        recipe = timeline.recipe
+        self._needed = needed_layers(recipe)
+        kinds = {type(recipe.layers[i].motion) for i in self._needed}
+        self._has_waves = Ripple in kinds
+        self._has_time = bool(kinds & {Ripple, Sway})
+        self._drifts_in_loop = recipe.loop and Drift in kinds
+        motions = {kind.__struct_config__.tag for kind in kinds} | ({"wind"} if self._has_time else set())
+        output = recipe.output
+        self._fixed = {
+            "stack": stack,
+            "size": size,
+            "scale": scale,
+            "layers": [self._layer(i) for i in range(len(recipe.layers))],
+            "view": self._view(),
+            "depth": output.depth,
+            "compression": output.compression,
+            "names": [layer.name for layer in recipe.layers if layer.visible] if output.layers else None,
+            "engines": _versions("picture", "layers", "frame", *motions),
+        }
+
+    def of(self, frame: int) -> str:
+        """The key of one frame; it reads its own moment, and for the flow the next one."""
+        now, after = self._timeline.at(frame), self._timeline.at(frame + 1)
+        return hashed({**self._fixed, "now": self._read(now), "after": self._read(after)})
+
+    def _read(self, now: Now):
+        layers = {
+            str(i): [layer.opacity if self._timeline.recipe.layers[i].visible else None, layer.motion]
+            for i, layer in enumerate(now.layers)
+            if i in self._needed
+        }
+        moment = now.moment
+        if not self._has_time:  # what drifts through a loop reads where in it it is
+            return [[moment.frame, moment.first_frame, moment.loop_frames] if self._drifts_in_loop else None, layers]
+        if moment.wind.gusts == 0:  # then nothing of the gusts is read
+            wind = msgspec.structs.replace(moment.wind, gust_size=0, seed=0, travel=(0, 0))
+            moment = msgspec.structs.replace(moment, wind=wind, loop_travel=(0, 0))
+        return [moment, layers]
+
+    def _layer(self, i: int):
+        layers = self._timeline.recipe.layers
+        if i not in self._needed:
+            return None
+        place = {layer.name: place for place, layer in enumerate(layers)}
+        layer = layers[i]
+        follows = layer.follows and [place[layer.follows.layer], layer.follows.mirror]
+        water = place[layer.motion.water] if isinstance(layer.motion, Bob) else None
+        endless = self._timeline.endless[i]
+        return {"visible": layer.visible, "follows": follows, "water": water, "endless": endless}
+
+    def _view(self):
+        recipe = self._timeline.recipe
+        mirrors = any(recipe.layers[i].follows and recipe.layers[i].follows.mirror for i in self._needed)
+        if self._has_waves:
+            return recipe.view
+        return recipe.view.horizon if mirrors else None
+
+
+def needed_layers(recipe: Recipe) -> set[int]:
+    """The layers that are seen, and those that they follow or float on."""
+    place = {layer.name: i for i, layer in enumerate(recipe.layers)}
+    waiting = [i for i, layer in enumerate(recipe.layers) if layer.visible]
+    needed = set()
+    while waiting:
+        i = waiting.pop()
+        if i in needed:
+            continue
+        needed.add(i)
+        layer = recipe.layers[i]
+        if layer.follows is not None:
+            waiting.append(place[layer.follows.layer])
+        if isinstance(layer.motion, Bob):
+            waiting.append(place[layer.motion.water])
+    return needed
+
+
+def _versions(*engines: str) -> dict[str, int]:
+    return {engine: ENGINES[engine] for engine in engines}
+
+
+def _matte(matte, digests):
+    if matte is None:
+        return None
+    if isinstance(matte, FileMatte):
+        return ["file", digests[matte.file], matte.channel]
+    return ["labels", digests[matte.labels], matte.value]
+
+
+def _fill(fill, digests):
+    if isinstance(fill, FileFill):
+        return ["file", digests[fill.file]]
+    return ["push-pull"] if isinstance(fill, ExemplarFill) else ["none"]

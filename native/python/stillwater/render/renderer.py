@@ -1,0 +1,73 @@
+"""The engine's FrameRenderer for a recipe: layers, motions and moments handed over as its parameter structs."""
+
+import numpy as np
+
+from .. import _stillwater as engine
+from ..recipe.stochastic import Bob, Ripple, Still, Sway
+from .cache import Prepared
+from .prepare import layer_images
+from .resolve import DriftNow, MomentNow, Timeline
+
+_KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: engine.Drift}
+
+
+class Renderer:
+    """Frames of one recipe at one scale, in any order."""
+
+    def __init__(self, timeline: Timeline, stack: Prepared, size: tuple[int, int], scale: float):
+        recipe = timeline.recipe
+        place = {layer.name: i for i, layer in enumerate(recipe.layers)}
+        start = timeline.at(1)  # animated fields are replaced at each frame
+        self._timeline, self._layers_too = timeline, recipe.output.layers
+        images = layer_images(stack, "colour")
+        layers = [
+            engine.Layer(
+                image,
+                _motion(now.motion),
+                water=place[layer.motion.water] if isinstance(layer.motion, Bob) else -1,
+                follows=place[layer.follows.layer] if layer.follows else -1,
+                mirror=bool(layer.follows and layer.follows.mirror),
+                visible=layer.visible,
+                endless=endless,
+            )
+            for image, layer, now, endless in zip(images, recipe.layers, start.layers, timeline.endless, strict=True)
+        ]
+        view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
+        self._renderer = engine.FrameRenderer(
+            size=size,
+            scale=scale,
+            view=view,
+            wind=_moment(start.moment).wind,
+            layers=layers,
+            alpha=layer_images(stack, "alpha") if stack.facts["has_alpha"] else None,
+        )
+
+    def frame(self, frame: int):
+        """One frame: .combined H x W x 4 premultiplied display-referred, .flow H x W x 2, .matte H x W, .layers."""
+        (now, states), (after, states_after) = self._numbers(frame), self._numbers(frame + 1)
+        return self._renderer.render(now, after, states, states_after, flow=True, layers=self._layers_too)
+
+    def _numbers(self, frame: int):
+        now = self._timeline.at(frame)
+        return _moment(now.moment), [engine.LayerState(layer.opacity, _motion(layer.motion)) for layer in now.layers]
+
+
+def _moment(now: MomentNow):
+    return engine.Moment(**{**_fields(now), "wind": engine.Wind(**_fields(now.wind))})
+
+
+def _motion(motion):
+    if isinstance(motion, Still):
+        return None
+    fields = _fields(motion)
+    fields.pop("water", None)  # which layer, not a number of the motion: engine.Layer has it
+    return _KINDS[type(motion)](**fields)
+
+
+def _fields(part) -> dict:
+    return {name: getattr(part, name) for name in part.__struct_fields__}
+
+
+def eight_bit(combined: np.ndarray) -> np.ndarray:
+    """A frame over black as H x W x 3 bytes, sRGB."""
+    return np.rint(np.clip(combined[..., :3], 0, 1) * 255).astype(np.uint8)

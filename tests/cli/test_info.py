@@ -1,0 +1,74 @@
+"""`info`: what will be computed, what is there, and how much memory it takes."""
+
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+
+def facts(done):
+    assert done.returncode == 0, done.stderr
+    return dict(re.findall(r"^(\w+) +(.+)$", done.stdout, re.MULTILINE))
+
+
+def test_before_and_after(scene, tmp_path, command):
+    path = scene(lambda recipe: recipe["layers"][2].update(visible=False))
+    before = facts(command("info", path))
+    assert before["picture"] == "48 x 36 px"
+    assert before["frames"] == "1 to 6, 48 x 36 px, 24 a second"
+    assert before["folder"] == f"{tmp_path}/frames: 0 of 6 frames are there and up to date"
+    assert before["cache"] == f"{tmp_path}/.stillwater-cache: the layers are not cut yet, 0 MB in all"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["labels.png", "picture.png", "recipe.json", "tree.png"]
+    command("render", path, "--frames", "2-4")
+    after = facts(command("info", path))
+    assert after["folder"] == f"{tmp_path}/frames: 3 of 6 frames are there and up to date"
+    assert after["cache"].startswith(f"{tmp_path}/.stillwater-cache: the layers are cut")
+
+
+def test_the_layers(scene, command):
+    done = command("info", scene(lambda recipe: recipe["layers"][2].update(visible=False)))
+    told = [line.strip() for line in done.stdout.splitlines() if line.startswith("   ")]
+    assert told == ["boat: bob", "reflection: still, follows boat in the mirror", "tree: sway, hidden", "sea: ripple", "clouds: drift"]
+    assert done.stderr.count("warning") == done.stderr.count("\n") == 1
+
+
+def test_what_is_wrong_is_said(scene, tmp_path, command):
+    path = scene()
+    (tmp_path / "tree.png").unlink()
+    done = command("info", path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"stillwater: {path}: layers[2].matte.file: {tmp_path}/tree.png: there is no such file\n"
+
+
+def peak_bytes(*arguments):
+    """Of a command line that runs to its end."""
+    process = subprocess.Popen([sys.executable, "-m", "stillwater", *map(str, arguments)], stdin=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0
+    return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
+@pytest.mark.parametrize(
+    "width, height, layers, motion, scale",
+    [
+        (1600, 1000, 2, {"type": "sway", "armature": [[100, 900], [100, 100]]}, 1),
+        (1600, 1000, 6, {"type": "sway", "armature": [[100, 900], [100, 100]]}, 1),
+        (1600, 1000, 2, {"type": "drift", "velocity": [3, 0]}, 1),
+        (1600, 1000, 3, {"type": "still"}, 2),
+    ],
+)
+def test_the_memory_is_within_a_fifth_of_the_peak(scene, tmp_path, command, width, height, layers, motion, scale):
+    y, x = np.mgrid[:height, :width]
+    Image.fromarray(np.stack([x % 256, y % 256, (x + y) % 256], axis=-1).astype(np.uint8)).save(tmp_path / "picture.png")
+    Image.fromarray((x * layers // width).astype(np.uint8)).save(tmp_path / "labels.png")
+    cut = [{"name": str(i), "matte": {"labels": "labels.png", "value": i}, "motion": motion} for i in range(layers - 1)]
+    path = scene(lambda recipe: recipe.update(layers=[*cut, {"name": "back", "motion": motion}], output={"scale": scale}))
+    for state in ("cold", "warm"):
+        said = float(re.match(r"(\d+) MB", facts(command("info", path))["memory"])[1]) * 1e6
+        peak = peak_bytes("render", path, "--frames", "1-2", "--output", tmp_path / state, "--progress", "none")
+        assert abs(said / peak - 1) < 0.2, (state, said, peak)
