@@ -5,7 +5,7 @@ from bpy.props import EnumProperty
 
 from ..properties import arrange
 
-ICONS = {"still": "PINNED", "sway": "OUTLINER_OB_HAIR", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE", "drift": "FORCE_WIND"}
+ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE", "drift": "OUTLINER_OB_VOLUME"}
 
 
 class STILLWATER_UL_layers(bpy.types.UIList):

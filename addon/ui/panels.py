@@ -1,10 +1,13 @@
 """The same panels in the 3D viewport's sidebar and in the compositor's."""
 
+import textwrap
+
 import bpy
 
 from .. import engine
 
-WIDTH = 42  # characters: a message is broken into lines of about so many
+# Of a sidebar at scale 1, pixels: what its tabs and an icon take, a character on average, its width by default.
+BESIDE, CHARACTER, WIDTH = 85, 6.3, 280
 
 
 class _Sidebar:
@@ -24,7 +27,7 @@ class _Main(_Sidebar):
     def draw(self, context):
         layout, settings = self.layout, context.scene.stillwater
         if engine.problem():
-            _say(layout, engine.problem(), "ERROR")
+            _say(context, layout, engine.problem(), "ERROR")
         else:
             layout.label(text=f"Engine {engine.version()}", icon="CHECKMARK")
         row = layout.row(align=True)
@@ -39,10 +42,10 @@ class _Main(_Sidebar):
             row.prop(settings, "active_picture", text="")
         row.operator("stillwater.remove_picture", text="", icon="X")
         layout.prop(picture, "picture")
-        _draw_bake(layout, picture)
+        _draw_bake(context, layout, picture)
 
 
-def _draw_bake(layout, picture) -> None:
+def _draw_bake(context, layout, picture) -> None:
     state = picture.tree.stillwater if picture.tree else None
     if state is not None and state.state == "running":
         row = layout.row(align=True)
@@ -51,23 +54,20 @@ def _draw_bake(layout, picture) -> None:
     else:
         layout.operator("stillwater.bake", icon="RENDER_ANIMATION")
         if state is not None and state.message:
-            _say(layout, state.message, "ERROR" if state.state == "failed" else "INFO")
+            _say(context, layout, state.message, "ERROR" if state.state == "failed" else "INFO")
     if state is not None:
         for warning in filter(None, state.warning.split("\n")):
-            _say(layout, warning, "ERROR")
+            _say(context, layout, warning, "ERROR")
         layout.operator("stillwater.refresh", icon="FILE_REFRESH")
 
 
-def _say(layout, sentence: str, icon: str) -> None:
-    """A sentence over several lines; Blender cuts a label off."""
+def _say(context, layout, sentence: str, icon: str) -> None:
+    """A sentence over as many lines as the sidebar's width asks for; Blender would cut it off."""
+    width = context.region.width / context.preferences.system.ui_scale if context.region else WIDTH
     column = layout.column(align=True)
-    line = ""
-    for word in sentence.split():
-        if line and len(line) + len(word) >= WIDTH:
-            column.label(text=line, icon=icon)
-            line, icon = "", "BLANK1"
-        line = f"{line} {word}".strip()
-    column.label(text=line, icon=icon)
+    for line in textwrap.wrap(sentence, max(12, int((width - BESIDE) / CHARACTER))):
+        column.label(text=line, icon=icon)
+        icon = "BLANK1"
 
 
 class _OfPicture(_Sidebar):

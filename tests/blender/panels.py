@@ -4,6 +4,8 @@ from types import SimpleNamespace
 
 import bpy
 
+ICONS = bpy.types.UILayout.bl_rna.functions["prop"].parameters["icon"].enum_items
+
 
 class Recorder:
     """Stands for Blender's layout: takes any call, keeps texts and properties, and checks that these exist."""
@@ -19,6 +21,7 @@ class Recorder:
         raise AttributeError(name)
 
     def label(self, text="", icon="NONE"):
+        assert icon in ICONS
         self.texts.append(text)
 
     def progress(self, factor=0.0, text=""):
@@ -26,11 +29,13 @@ class Recorder:
 
     def prop(self, data, name, text="", icon="NONE", emboss=True):
         getattr(data, name)
+        assert icon in ICONS
         self.properties.append(name)
 
     def operator(self, name, text="", icon="NONE"):
         room, verb = name.split(".")
         properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
+        assert icon in ICONS
         self.operators.append(name)
         return SimpleNamespace(**{kind.identifier: None for kind in properties})
 

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from panels import draw
+from panels import Recorder, draw
 
 
 @pytest.fixture
@@ -37,6 +37,9 @@ def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, t
 def test_every_number_of_a_motion_is_shown(scene, picture, panel, motion):
     picture.layers[0].motion.type = motion
     shown = panel()["properties"]
+    row = Recorder()
+    bpy.types.STILLWATER_UL_layers.draw_item(None, bpy.context, row, picture, picture.layers[0], 0, picture, "", 0)
+    assert row.properties == ["name", "visible"]
     group = getattr(picture.layers[0].motion, motion, None)
     wanted = [] if group is None else [n for n in type(group).__annotations__ if n not in ("waterline", "water_id")]
     assert set(wanted) <= set(shown) and "speed" in shown and "fov" in shown and "compression" in shown
@@ -67,7 +70,7 @@ def test_a_long_sentence_is_broken_into_lines(extension, scene, picture, panel):
     state.state, state.message = "failed", sentence
     state.warning = "first warning\nsecond warning"
     shown = panel()["texts"]
-    assert sentence in " ".join(shown) and max(map(len, shown)) <= 42
+    assert sentence in " ".join(shown) and max(map(len, shown)) <= 31
     assert "first warning" in shown and "second warning" in shown
 
 
