@@ -18,11 +18,12 @@ TIME_LIMIT = 300  # seconds for ffmpeg
 
 def write_movie(frames: list[Path], fps: float, turns: int, movie: Path) -> None:
     """H.264 in yuv420p, which every player reads, of `frames` (numbered without a gap) shown `turns` times."""
+    colours = ["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"]
     command = ["ffmpeg", "-y", "-loglevel", "error", "-framerate", str(fps), "-stream_loop", str(turns - 1),
                "-start_number", str(int(frames[0].stem)), "-i", str(frames[0].parent / "%04d.png"),
-               "-frames:v", str(turns * len(frames)), "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709",
-               "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-pix_fmt", "yuv420p",
-               "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart", str(movie)]
+               "-frames:v", str(turns * len(frames)),
+               "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709", "-pix_fmt", "yuv420p", *colours,
+               "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-movflags", "+faststart", str(movie)]
     subprocess.run(command, check=True, stdin=subprocess.DEVNULL, timeout=TIME_LIMIT)
 
 

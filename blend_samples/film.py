@@ -50,7 +50,8 @@ def render(folder: Path, first: int, last: int) -> None:
         scene.frame_set(frame)
         scene.render.filepath = str(folder / f"{frame:04d}.png")
         bpy.ops.render.render(write_still=True)
-        print(f"\rrendered frame {frame} ({frame - first + 1} of {last - first + 1})", end="", file=sys.stderr, flush=True)
+        print(f"\rrendered frame {frame} ({frame - first + 1} of {last - first + 1})", end="", file=sys.stderr,
+              flush=True)
     print(file=sys.stderr)
 
 

@@ -61,7 +61,11 @@ run_film=("$build/blender-venv/bin/python" blend_samples/film.py)
 # Blender writes a line or more a frame to its standard output; the progress goes to standard error.
 BLENDER_USER_RESOURCES="$profile" timeout 1800 "${run_film[@]}" -- --zip "$extension_zip" --recipe "$recipe" \
   --work "$work" ${frames:+--frames "$frames"} >"$work/blender.log" </dev/null ||
-  { tail -20 "$work/blender.log" >&2; echo "Blender didn't render $sample; all it said is in $work/blender.log" >&2; exit 1; }
+  {
+    tail -20 "$work/blender.log" >&2
+    echo "Blender didn't render $sample; all it said is in $work/blender.log" >&2
+    exit 1
+  }
 
 timeout 600 "$python" blend_samples/develop.py --recipe "$recipe" --frames "$work/film" \
   --movie "$build/samples/$sample.mp4" --sheet "$build/samples/$sample.png"

@@ -60,7 +60,8 @@ class Boat:
                                np.tile(np.array(bands[-1][1]) * 0.8, (len(faces), 1))))
         deck = np.stack([inner[0][:, 6], inner[1][:, 6]])
         faces = _sheet(deck.shape[:2])
-        self.parts.append(mesh("floor", self.put(deck.reshape(-1, 3)), faces, material, np.tile([0.16, 0.1, 0.05], (len(faces), 1))))
+        self.parts.append(mesh("floor", self.put(deck.reshape(-1, 3)), faces, material,
+                               np.tile([0.16, 0.1, 0.05], (len(faces), 1))))
 
     def half_beam(self, s: np.ndarray) -> np.ndarray:
         """Half the beam at station s (-1 stern .. 1 bow), metres."""
@@ -99,20 +100,24 @@ class Boat:
         place = (u * np.ones_like(v)).reshape(-1)[faces].mean(axis=1)
         high = (v * np.ones_like(u)).reshape(-1)[faces].mean(axis=1)
         cloth = 1 - 0.14 * ((place * seams) % 1 < 0.17) - stain * (1 - high) + 0.05 * np.sin(9 * high + 4 * place)
-        self.parts.append(mesh("sail", self.put(sheet.reshape(-1, 3)), faces, material, np.array(tone) * cloth[:, None]))
+        self.parts.append(mesh("sail", self.put(sheet.reshape(-1, 3)), faces, material,
+                               np.array(tone) * cloth[:, None]))
 
     def person(self, at: tuple, coat: tuple, hat: tuple, material: bpy.types.Material, tall: float = 1.0) -> None:
         """A sitting figure, its seat at `at` in the boat's space."""
         at = np.asarray(at, float)
-        for centre, radii, tone in [((0, 0, 0.32), (0.2, 0.24, 0.36), coat), ((0.06, 0, 0.78), (0.11, 0.1, 0.13), (0.45, 0.24, 0.15)),
-                                    ((0.05, 0, 0.87), (0.2, 0.19, 0.03), hat), ((0.05, 0, 0.92), (0.11, 0.1, 0.08), hat),
+        for centre, radii, tone in [((0, 0, 0.32), (0.2, 0.24, 0.36), coat),
+                                    ((0.06, 0, 0.78), (0.11, 0.1, 0.13), (0.45, 0.24, 0.15)),
+                                    ((0.05, 0, 0.87), (0.2, 0.19, 0.03), hat),
+                                    ((0.05, 0, 0.92), (0.11, 0.1, 0.08), hat),
                                     ((0.25, 0, 0.08), (0.3, 0.2, 0.12), tuple(0.6 * c for c in coat)),
                                     ((0.18, 0.15, 0.4), (0.24, 0.07, 0.07), coat)]:
             tilt, turn = np.meshgrid(np.linspace(0, np.pi, 9), np.linspace(0, 2 * np.pi, 13))
             ball = np.stack([np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)], axis=-1)
             points = at + tall * (np.array(centre) + ball * np.array(radii))
             faces = _sheet(ball.shape[:2])
-            self.parts.append(mesh("person", self.put(points.reshape(-1, 3)), faces, material, np.tile(tone, (len(faces), 1))))
+            self.parts.append(mesh("person", self.put(points.reshape(-1, 3)), faces, material,
+                                   np.tile(tone, (len(faces), 1))))
 
 
 def _sheet(shape: tuple[int, int]) -> np.ndarray:

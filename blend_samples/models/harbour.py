@@ -6,9 +6,10 @@ import numpy as np
 from .meshes import mesh
 
 
-def block(name: str, low: tuple, high: tuple, material: bpy.types.Material, tone: tuple = (1, 1, 1)) -> bpy.types.Object:
+def block(name: str, low: tuple, high: tuple, material: bpy.types.Material,
+          tone: tuple = (1, 1, 1)) -> bpy.types.Object:
     """A box from corner `low` to corner `high`."""
-    corners = np.array([[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
     return mesh(name, corners, faces, material, np.tile(tone, (6, 1)), smooth=False)
 
@@ -27,18 +28,23 @@ def house(at: tuple, size: tuple, roof: float, wall: tuple, tiles: tuple, paint:
     ridge = (x - depth / 2, z + eaves + roof)
     rim = np.array([[x + over, y - over, z + eaves - 0.15], [x + over, y + length + over, z + eaves - 0.15],
                     [ridge[0], y + length + over, ridge[1]], [ridge[0], y - over, ridge[1]],
-                    [x - depth - over, y + length + over, z + eaves - 0.15], [x - depth - over, y - over, z + eaves - 0.15]])
-    things.append(mesh("roof", rim, np.array([[0, 1, 2, 3], [3, 2, 4, 5]]), paint, np.tile(tiles, (2, 1)), smooth=False))
-    gable = np.array([[x, y, z + eaves], [x - depth, y, z + eaves], [ridge[0], y, ridge[1] - 0.15], [ridge[0], y, ridge[1] - 0.16]])
+                    [x - depth - over, y + length + over, z + eaves - 0.15], [x - depth - over, y - over,
+                                                                              z + eaves - 0.15]])
+    things.append(mesh("roof", rim, np.array([[0, 1, 2, 3], [3, 2, 4, 5]]), paint, np.tile(tiles, (2, 1)),
+                       smooth=False))
+    gable = np.array([[x, y, z + eaves], [x - depth, y, z + eaves], [ridge[0], y, ridge[1] - 0.15],
+                      [ridge[0], y, ridge[1] - 0.16]])
     things.append(mesh("gable", gable, np.array([[0, 1, 2, 3]]), paint, np.array([wall]), smooth=False))
     chimney = y + length * rng.uniform(0.2, 0.8)
-    things.append(block("chimney", (ridge[0] - 0.3, chimney, ridge[1] - 0.5), (ridge[0] + 0.3, chimney + 0.7, ridge[1] + 0.9), paint, (0.28, 0.13, 0.09)))
+    things.append(block("chimney", (ridge[0] - 0.3, chimney, ridge[1] - 0.5),
+                        (ridge[0] + 0.3, chimney + 0.7, ridge[1] + 0.9), paint, (0.28, 0.13, 0.09)))
     floors = max(int(eaves // 2.6), 1)
     for floor in range(floors):
         low = z + 0.9 + floor * eaves / floors
         for along in np.arange(y + 0.9, y + length - 1.2, 1.75):
             lit = glow if rng.uniform() < 0.28 else glass
-            things.append(block("frame", (x, along - 0.12, low - 0.12), (x + 0.04, along + 0.97, low + 1.42), paint, (0.5, 0.45, 0.38)))
+            things.append(block("frame", (x, along - 0.12, low - 0.12), (x + 0.04, along + 0.97, low + 1.42), paint,
+                                (0.5, 0.45, 0.38)))
             things.append(block("window", (x, along, low), (x + 0.07, along + 0.85, low + 1.3), lit))
         for across in np.arange(x - depth + 0.9, x - 1.1, 1.8):
             lit = glow if rng.uniform() < 0.3 else glass
@@ -56,7 +62,8 @@ def tower(name: str, at: tuple, height: float, low: float, high: float, material
     points = np.concatenate([np.stack([*(at[:2] + ring * r).T, np.full(sides, at[2] + height * level)], axis=-1)
                              for r, level in zip(radius, levels)])
     k, s = np.meshgrid(np.arange(30), np.arange(sides), indexing="ij")
-    faces = np.stack([k * sides + s, k * sides + (s + 1) % sides, (k + 1) * sides + (s + 1) % sides, (k + 1) * sides + s], axis=-1).reshape(-1, 4)
+    faces = np.stack([k * sides + s, k * sides + (s + 1) % sides, (k + 1) * sides + (s + 1) % sides,
+                      (k + 1) * sides + s], axis=-1).reshape(-1, 4)
     share = (points[faces].mean(axis=1)[:, 2] - at[2]) / height
     tones = np.zeros((len(faces), 3))
     for start, colour in bands:

@@ -26,5 +26,6 @@ def hills(name: str, far: float, base: float, swing: float, dark: tuple, light: 
 def bushes(name: str, at: np.ndarray, size: np.ndarray, tone: np.ndarray, rng: np.random.Generator) -> bpy.types.Object:
     """Foliage seen from afar: one upright card a place, lit mostly from the left and above."""
     count = len(at)
-    normal = np.stack([rng.standard_normal(count) * 0.7 - 0.3, -np.ones(count), 0.8 + rng.standard_normal(count) * 0.4], axis=1)
+    normal = np.stack([rng.standard_normal(count) * 0.7 - 0.3, -np.ones(count), 0.8 + rng.standard_normal(count) * 0.4],
+                      axis=1)
     return cards(name, at, normal, rng.standard_normal((count, 3)), size, size, leaf(name, through=0.1), tone)

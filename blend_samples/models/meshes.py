@@ -47,7 +47,8 @@ def cards(name: str, at: np.ndarray, normal: np.ndarray, along: np.ndarray, leng
     along /= np.linalg.norm(along, axis=1, keepdims=True) + 1e-9
     side = np.cross(normal, along)
     length, width = np.asarray(length)[:, None], np.asarray(width)[:, None]
-    corners = [at, at + along * length * 0.45 + side * width / 2, at + along * length, at + along * length * 0.45 - side * width / 2]
+    corners = [at, at + along * length * 0.45 + side * width / 2, at + along * length,
+               at + along * length * 0.45 - side * width / 2]
     points = np.stack(corners, axis=1).reshape(-1, 3)
     faces = np.arange(len(points)).reshape(-1, 4)
     return mesh(name, points, faces, material, tones, smooth=False)

@@ -1,5 +1,6 @@
 """The empty stage in Blender: camera, sun, sky light, and rendering one layer of objects at a time."""
 
+import argparse
 import contextlib
 import math
 import os
@@ -11,6 +12,16 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 bpy.utils.expose_bundled_modules()
+
+
+def asked(description: str, folder: str) -> argparse.Namespace:
+    """The command line of a scene: width, height (by the picture's shape, 8 : 5) and output folder."""
+    arguments = argparse.ArgumentParser(description=description)
+    arguments.add_argument("--width", type=int, default=1280, help="pixels; the brushes shrink with it")
+    arguments.add_argument("--output", default=folder, help="folder of the picture, mattes/ and behind/")
+    given = arguments.parse_args()
+    given.height = given.width * 5 // 8
+    return given
 
 
 def clear(width: int, height: int, samples: int = 24) -> None:
@@ -70,7 +81,8 @@ def horizon() -> list[list[float]]:
     eye = scene.camera.matrix_world.translation
     ahead = scene.camera.matrix_world.to_quaternion() @ Vector((0, 0, -1))
     heading = math.atan2(ahead.y, ahead.x)
-    far = [place((eye.x + 1e6 * math.cos(heading + a), eye.y + 1e6 * math.sin(heading + a), eye.z)) for a in (0.2, -0.2)]
+    far = [place((eye.x + 1e6 * math.cos(heading + a), eye.y + 1e6 * math.sin(heading + a), eye.z))
+           for a in (0.2, -0.2)]
     slope = (far[1][1] - far[0][1]) / (far[1][0] - far[0][0])
     ends = (0.0, float(scene.render.resolution_x))
     return [[x, round(far[0][1] + slope * (x - far[0][0]), 1)] for x in ends]
@@ -82,7 +94,8 @@ def sun(azimuth: float, elevation: float, colour: tuple, strength: float, size: 
     data.color, data.energy, data.angle = colour, strength, math.radians(size)
     lamp = bpy.data.objects.new("sun", data)
     a, e = math.radians(azimuth), math.radians(elevation)
-    lamp.rotation_euler = Vector((math.cos(a) * math.cos(e), math.sin(a) * math.cos(e), math.sin(e))).to_track_quat("Z", "Y").to_euler()
+    back = Vector((math.cos(a) * math.cos(e), math.sin(a) * math.cos(e), math.sin(e)))
+    lamp.rotation_euler = back.to_track_quat("Z", "Y").to_euler()
     bpy.context.scene.collection.objects.link(lamp)
 
 
@@ -139,7 +152,8 @@ def _fill_ramp(ramp, stops) -> None:
         stop.position, stop.color = position, (*colour, 1)
 
 
-def render(shown: list, hold_out: list = (), unseen: list = (), unmirrored: list = (), transparent: bool = True) -> np.ndarray:
+def render(shown: list, hold_out: list = (), unseen: list = (), unmirrored: list = (),
+           transparent: bool = True) -> np.ndarray:
     """Linear premultiplied RGBA (H, W, 4) of the objects `shown` as the camera sees them alone.
 
     All other objects still throw their shadows and light, but the `hold_out` ones cut what they hide, and the

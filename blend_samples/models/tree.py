@@ -110,7 +110,8 @@ def bark(name: str, nodes: np.ndarray, parents: np.ndarray, radius: np.ndarray, 
 def leaves(name: str, nodes: np.ndarray, radius: np.ndarray, crown: Crown, material: bpy.types.Material,
            rng: np.random.Generator, palette: np.ndarray, count: int = 30000, size: float = 0.24,
            spread: float = 0.4, droop: float = 0.3) -> bpy.types.Object:
-    """`count` leaves, a quarter round the thin twigs, the rest about the lobes' shells, turned outward from their lobe so that a lobe shades as one form.
+    """`count` leaves, a quarter round the thin twigs, the rest about the lobes' shells, turned outward from their lobe
+    so that a lobe shades as one form.
 
     palette (P, 3) linear colours: each lobe leans to one of them, each leaf strays.
     """

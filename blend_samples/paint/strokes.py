@@ -49,11 +49,11 @@ def stray(colour: np.ndarray, amount: float, rng: np.random.Generator) -> np.nda
 
 
 def paint(guide: np.ndarray, rounds: list[Round], rng: np.random.Generator, fallback: np.ndarray | float = 0.0,
-          follow: float = 6.0, within: np.ndarray | None = None) -> Painted:
+          follow: float = 6.0) -> Painted:
     """Paint `guide` (premultiplied display RGBA, H x W x 4).
 
     fallback: angle where the guide shows none; follow: how far, in px, the direction is smoothed (0: fallback
-    everywhere); within: a place's chance (0..1) that marks are set there.
+    everywhere).
     """
     h, w = guide.shape[:2]
     canvas = blur(guide, 1.0).astype(np.float32)  # the underpainting: no mark's gap shows a hole
@@ -73,9 +73,7 @@ def paint(guide: np.ndarray, rounds: list[Round], rng: np.random.Generator, fall
         ix = np.clip(x.astype(int), 0, w - 1)
         covered = guide[iy, ix, 3]
         wanted = covered > rng.uniform(0.3, 0.8, len(y))
-        if within is not None:
-            wanted &= within[iy, ix] > rng.uniform(0, 1, len(y))
-        if r.error > 0 and r is not rounds[0]:
+        if r.error > 0:
             off = blur(np.abs(canvas - guide).max(axis=2), r.width * 0.3)
             wanted &= off[iy, ix] > r.error * rng.uniform(0.6, 1.4, len(y))
         y, x, iy, ix = y[wanted], x[wanted], iy[wanted], ix[wanted]
@@ -109,7 +107,7 @@ def paint(guide: np.ndarray, rounds: list[Round], rng: np.random.Generator, fall
 def light_relief(painted: Painted, amount: float) -> np.ndarray:
     """The painted colour with its ridges lit from the upper left, premultiplied (H, W, 4)."""
     gy, gx = np.gradient(blur(painted.height, 0.6))
-    shade = 1 + amount * np.clip(-(gx + gy) * -1.0, -0.5, 0.5)
+    shade = 1 + amount * np.clip(gx + gy, -0.5, 0.5)
     lit = painted.colour.copy()
     lit[..., :3] = np.clip(lit[..., :3] * shade[..., None], 0, None)
     lit[..., :3] = np.minimum(lit[..., :3], lit[..., 3:])

@@ -3,7 +3,6 @@
     build/blender-venv/bin/python blend_samples/tree/scene.py [--width 1280]
 """
 
-import argparse
 import os
 import sys
 
@@ -18,9 +17,8 @@ from models.land import bushes, hills  # noqa: E402
 from models.materials import cloud, leaf, pigment  # noqa: E402
 from models.meshes import cards, grid, ripple_noise  # noqa: E402
 from models.tree import Crown, bark, grow, leaves, thickness  # noqa: E402
-from paint.fields import noise  # noqa: E402
-from paint.layers import crisp, over, write_sample  # noqa: E402
-from paint.strokes import brushwork, light_relief, paint  # noqa: E402
+from paint.easel import Easel  # noqa: E402
+from paint.layers import over, write_sample  # noqa: E402
 
 FOOT = np.array([3.4, 22.5, 0.0])
 
@@ -66,7 +64,8 @@ def meadow(rng):
     tone *= shade(y)[:, None]
     off = np.abs(x - path(y)) / (0.42 + 0.1 * patch)
     kept = (off > 1) | (rng.uniform(0, 1, count) < 0.25)
-    tone[off < 1] = np.array([0.50, 0.38, 0.22]) * rng.uniform(0.7, 1.2, ((off < 1).sum(), 1)) * shade(y[off < 1])[:, None]
+    sand = np.array([0.50, 0.38, 0.22]) * rng.uniform(0.7, 1.2, ((off < 1).sum(), 1))
+    tone[off < 1] = sand * shade(y[off < 1])[:, None]
     up = np.stack([0.35 + 0.35 * rng.standard_normal(count), 0.3 * rng.standard_normal(count), np.ones(count)], axis=1)
     normal = np.stack([0.6 * rng.standard_normal(count), -np.ones(count), np.full(count, 0.9)], axis=1)
     length = rng.uniform(0.14, 0.42, count)
@@ -80,19 +79,24 @@ def meadow(rng):
 
 
 def far_land(rng):
-    ranges = [(130, 1.5, 5, (0.14, 0.17, 0.05), (0.34, 0.30, 0.10)), (300, 7, 14, (0.14, 0.185, 0.12), (0.27, 0.27, 0.15)),
-              (700, 30, 32, (0.23, 0.31, 0.36), (0.29, 0.36, 0.36)), (1500, 85, 70, (0.38, 0.47, 0.56), (0.43, 0.51, 0.58))]
+    ranges = [(130, 1.5, 5, (0.14, 0.17, 0.05), (0.34, 0.30, 0.10)),
+              (300, 7, 14, (0.14, 0.185, 0.12), (0.27, 0.27, 0.15)),
+              (700, 30, 32, (0.23, 0.31, 0.36), (0.29, 0.36, 0.36)), (1500, 85, 70, (0.38, 0.47, 0.56),
+                                                                      (0.43, 0.51, 0.58))]
     things = [hills(f"range {far}", far, base, swing, dark, light, int(rng.integers(0, 1000)))
               for far, base, swing, dark, light in ranges]
     # Hedges and copses on the nearer ranges: small round bushes that give the distance its scale.
     count = 9000
     row = rng.integers(0, 16, count)
-    y = np.array([95, 100, 118, 135, 150, 160, 170, 200, 230, 300, 310, 325, 340, 350, 360, 380])[row] + rng.uniform(-2, 2, count)
+    rows = np.array([95, 100, 118, 135, 150, 160, 170, 200, 230, 300, 310, 325, 340, 350, 360, 380])
+    y = rows[row] + rng.uniform(-2, 2, count)
     along = (np.round(rng.uniform(-1, 1, count) * 7) / 7 + 0.08 * rng.standard_normal(count))
     x = along * y * 0.75
-    z = np.where(y < 260, -6.5 + 4.5 * (y - 95) / 100, -3 + 11 * (y - 300) / 80) + np.abs(rng.standard_normal(count)) * 1.3
+    z = np.where(y < 260, -6.5 + 4.5 * (y - 95) / 100, -3 + 11 * (y - 300) / 80)
+    z += np.abs(rng.standard_normal(count)) * 1.3
     haze = np.clip((y - 60) / 420, 0, 1)[:, None]
-    tone = (np.array([[0.055, 0.075, 0.02]]) * (1 - haze) + np.array([[0.17, 0.24, 0.25]]) * haze) * rng.uniform(0.7, 1.5, (count, 1))
+    tone = np.array([[0.055, 0.075, 0.02]]) * (1 - haze) + np.array([[0.17, 0.24, 0.25]]) * haze
+    tone *= rng.uniform(0.7, 1.5, (count, 1))
     size = rng.uniform(0.8, 2.0, count) * (1 + y / 300)
     things.append(bushes("hedges", np.stack([x, y, z], axis=1), size, tone, rng))
     return things
@@ -101,18 +105,18 @@ def far_land(rng):
 def oak(rng):
     foot = FOOT + [0, 0, hill(FOOT[0], FOOT[1]) - 0.15]
     trunk = foot + np.array([[0, 0, 0], [-0.1, 0, 1.0], [0.12, 0.1, 2.1], [-0.05, 0.1, 3.1], [-0.35, 0, 4.2]])
-    lobes = np.array([[-4.3, -0.5, 4.9], [-2.9, -1.6, 6.4], [-3.6, 0.8, 7.6], [-0.9, -1.8, 5.5], [-1.2, 0, 8.9], [0.9, -1.2, 7.3],
-                      [2.8, -0.3, 8.2], [3.2, -1.6, 5.9], [4.9, 0.4, 6.4], [0.8, 1.5, 9.9], [-2.0, 2.0, 9.4], [5.2, -0.6, 4.5],
-                      [1.9, 1.6, 5.0], [-5.3, 0.9, 6.2]])
-    radii = np.array([[1.9, 1.7, 1.1], [1.9, 1.7, 1.25], [1.7, 1.7, 1.2], [1.5, 1.5, 1.0], [1.9, 1.7, 1.35], [1.8, 1.6, 1.2],
-                      [1.9, 1.7, 1.25], [1.8, 1.7, 1.1], [1.5, 1.5, 1.1], [1.6, 1.6, 1.1], [1.3, 1.4, 1.0], [1.3, 1.3, 0.8],
-                      [1.8, 1.6, 1.0], [1.2, 1.2, 0.8]])
+    lobes = np.array([[-4.3, -0.5, 4.9], [-2.9, -1.6, 6.4], [-3.6, 0.8, 7.6], [-0.9, -1.8, 5.5], [-1.2, 0, 8.9],
+                      [0.9, -1.2, 7.3], [2.8, -0.3, 8.2], [3.2, -1.6, 5.9], [4.9, 0.4, 6.4], [0.8, 1.5, 9.9],
+                      [-2.0, 2.0, 9.4], [5.2, -0.6, 4.5], [1.9, 1.6, 5.0], [-5.3, 0.9, 6.2]])
+    radii = np.array([[1.9, 1.7, 1.1], [1.9, 1.7, 1.25], [1.7, 1.7, 1.2], [1.5, 1.5, 1.0], [1.9, 1.7, 1.35],
+                      [1.8, 1.6, 1.2], [1.9, 1.7, 1.25], [1.8, 1.7, 1.1], [1.5, 1.5, 1.1], [1.6, 1.6, 1.1],
+                      [1.3, 1.4, 1.0], [1.3, 1.3, 0.8], [1.8, 1.6, 1.0], [1.2, 1.2, 0.8]])
     crown = Crown(foot + lobes, 0.9 * radii)
     nodes, parents = grow(trunk, crown, rng, step=0.28, lights=1900)
     radius = thickness(parents, 0.02, 2.3)
     crown = crown.broken(6, rng, 0.5)
     wood = bark("oak", nodes, parents, radius, pigment("bark", (0.035, 0.025, 0.02), (0.19, 0.13, 0.085), 5), 0.9)
-    palette = np.array([[0.09, 0.17, 0.03], [0.16, 0.26, 0.035], [0.27, 0.34, 0.045], [0.43, 0.40, 0.06]])
+    palette = np.array([[0.10, 0.155, 0.04], [0.17, 0.235, 0.05], [0.28, 0.31, 0.065], [0.43, 0.38, 0.09]])
     crownwork = leaves("oak leaves", nodes, radius, crown, leaf("oak leaves"), rng, palette, 70000, 0.2, 0.3)
     return [wood, crownwork]
 
@@ -125,40 +129,37 @@ def clouds(rng):
             cumulus("far cloud", (-1150, 2700, 300), 800, 150, white, rng, 8)]
 
 
-def main() -> None:
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--width", type=int, default=1280, help="pixels; the brushes shrink with it")
-    arguments.add_argument("--output", default=HERE)
-    given = arguments.parse_args()
-    width, height = given.width, given.width * 25 // 40
-    scale = width / 1280
-    rng = np.random.default_rng(1889)
+SKY = [(64, 22, {"density": 1.6, "variety": 0.025}), (34, 12, {"density": 1.2, "error": 0.02, "variety": 0.022}),
+       (18, 7, {"error": 0.05, "variety": 0.02})]
+EARTH = [(30, 11, {"density": 1.8, "variety": 0.04}), (17, 5, {"density": 1.2, "error": 0.04, "variety": 0.04}),
+         (10, 2.6, {"error": 0.07, "variety": 0.04})]
+FOLIAGE = [(13, 6, {"density": 1.6, "spread": 0.7}),
+           (9, 4, {"density": 1.6, "error": 0.03, "spread": 0.6, "lights_last": 0.8}),
+           (6, 2.2, {"density": 1.3, "error": 0.05, "spread": 0.4, "lights_last": 0.8})]
 
-    stage.clear(width, height, 16)
+
+def main() -> None:
+    given = stage.asked(__doc__, HERE)
+    easel = Easel(given.width, given.height, 1889)
+    stage.clear(given.width, given.height, 16)
     stage.camera((0, 0, 2.1), (0.25, 20, 4.85), 56)
     stage.sun(205, 27, (1.0, 0.77, 0.48), 6.5, 1.5)
-    stage.sky([(0, (0.90, 0.80, 0.62)), (0.06, (0.74, 0.76, 0.72)), (0.2, (0.36, 0.54, 0.72)), (0.6, (0.12, 0.27, 0.55))], 0.8)
-    ground, land, heaven = meadow(rng), far_land(rng), clouds(rng)
-    tree = oak(rng)
+    stage.sky([(0, (0.90, 0.80, 0.62)), (0.06, (0.74, 0.76, 0.72)), (0.2, (0.36, 0.54, 0.72)),
+               (0.6, (0.12, 0.27, 0.55))], 0.8)
+    ground, land, heaven = meadow(easel.rng), far_land(easel.rng), clouds(easel.rng)
+    tree = oak(easel.rng)
 
     sky = stage.display(stage.render(heaven, unseen=tree, transparent=False))
     earth = stage.display(stage.render(ground + land))
     standing = stage.display(stage.render(tree, hold_out=ground))
 
-    waft = 0.6 * noise((height, width), 220 * scale, rng) - 0.2
-    sky = light_relief(paint(sky, brushwork(scale,
-        (64, 22, {"density": 1.6, "variety": 0.025}), (34, 12, {"density": 1.2, "error": 0.02, "variety": 0.022}),
-        (18, 7, {"error": 0.05, "variety": 0.02})), rng, waft, 9 * scale), 0.15)
-    lean = np.full((height, width), -1.2, np.float32)
-    lean[: int(height * 0.66)] = 0.05
-    earth = light_relief(paint(earth, brushwork(scale,
-        (30, 11, {"density": 1.8, "variety": 0.04}), (17, 5, {"density": 1.2, "error": 0.04, "variety": 0.04}),
-        (10, 2.6, {"error": 0.07, "variety": 0.04})), rng, lean, 4 * scale), 0.3)
-    standing = crisp(light_relief(paint(standing, brushwork(scale,
-        (13, 6, {"density": 1.6, "spread": 0.7}), (9, 4, {"density": 1.6, "error": 0.03, "spread": 0.6, "lights_last": 0.8}),
-        (6, 2.2, {"density": 1.3, "error": 0.05, "spread": 0.4, "lights_last": 0.8})), rng, 0.6 * noise((height, width), 30 * scale, rng) + 0.8, 3 * scale), 0.3))
+    sky = easel.paint(sky, SKY, easel.wander(-0.2, 0.6, 220), 9, 0.15)
+    upright = np.full((given.height, given.width), -1.2, np.float32)
+    upright[: int(given.height * 0.66)] = 0.05
+    earth = easel.paint(earth, EARTH, upright, 4, 0.3)
+    standing = easel.paint(standing, FOLIAGE, easel.wander(0.8, 0.6, 30), 3, 0.3, sharp=True)
 
-    write_sample(given.output, [("tree", standing), ("background", over(earth, sky))])
+    write_sample(given.output, [("tree", standing), ("background", over(earth, sky))], filled=("tree",))
     print("foot", stage.place(FOOT + [0, 0, hill(FOOT[0], FOOT[1])]), "top", stage.place(FOOT + [0.2, 0, 11.5]))
 
 
