@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace stillwater {
@@ -73,18 +74,13 @@ class TravellingLayer : public LayerMotion {
 class DisplacedLayer final : public TravellingLayer {
  public:
   DisplacedLayer(const Plate& plate, SharedDisplacement now, const Travel& travel)
-      : TravellingLayer(plate, travel), now_(std::move(now)) {}
+      : TravellingLayer(plate, travel), now_(std::move(now)), bounds_(bounds(plate, rests(now_) ? nullptr : now_.get())) {}
 
   bool at_rest() const override { return rests(now_) && TravellingLayer::at_rest(); }
 
-  bool may_cover(const cv::Rect& tile) const override {
-    const double to_plate = plate_.scale / plate_.output_scale;
-    const double reach = (rests(now_) ? 0.0 : now_->reach()) * plate_.scale + 1;
-    const auto left = static_cast<int>(std::floor(tile.x * to_plate - plate_.origin.x - reach));
-    const auto top = static_cast<int>(std::floor(tile.y * to_plate - plate_.origin.y - reach));
-    const auto right = static_cast<int>(std::ceil(tile.br().x * to_plate - plate_.origin.x + reach));
-    const auto bottom = static_cast<int>(std::ceil(tile.br().y * to_plate - plate_.origin.y + reach));
-    return !plate_.source.is_clear(cv::Rect(left, top, right - left, bottom - top));
+  cv::Rect covered(const cv::Rect& tile) const override {
+    const cv::Rect part = tile & bounds_;
+    return part.empty() || plate_.source.is_clear(where_sampled(part)) ? cv::Rect() : part;
   }
 
   bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
@@ -92,7 +88,31 @@ class DisplacedLayer final : public TravellingLayer {
   }
 
  private:
+  // Output pixels that the layer can reach at this moment.
+  static cv::Rect bounds(const Plate& plate, const Displacement* now) {
+    const cv::Rect box = now ? now->spread(plate.box) : plate.box;
+    const double scale = plate.output_scale;
+    const auto low = [&](int at) { return static_cast<int>(std::floor(at * scale)) - 2; };
+    const auto high = [&](int at) { return static_cast<int>(std::ceil(at * scale)) + 2; };
+    cv::Rect reached(cv::Point(low(box.x), low(box.y)), cv::Point(high(box.br().x), high(box.br().y)));
+    if (plate.endless_x) reached.x = 0, reached.width = std::numeric_limits<int>::max();
+    if (plate.endless_y) reached.y = 0, reached.height = std::numeric_limits<int>::max();
+    return reached;
+  }
+
+  // Pixels of the plate around those from which a part of the output may be sampled.
+  cv::Rect where_sampled(const cv::Rect& part) const {
+    const double to_plate = plate_.scale / plate_.output_scale;
+    const double reach = (rests(now_) ? 0.0 : now_->reach()) * plate_.scale + 1;
+    const auto left = static_cast<int>(std::floor(part.x * to_plate - plate_.origin.x - reach));
+    const auto top = static_cast<int>(std::floor(part.y * to_plate - plate_.origin.y - reach));
+    const auto right = static_cast<int>(std::ceil(part.br().x * to_plate - plate_.origin.x + reach));
+    const auto bottom = static_cast<int>(std::ceil(part.br().y * to_plate - plate_.origin.y + reach));
+    return {left, top, right - left, bottom - top};
+  }
+
   SharedDisplacement now_;
+  cv::Rect bounds_;
 };
 
 class CrossFadedLayer final : public TravellingLayer {
@@ -102,7 +122,7 @@ class CrossFadedLayer final : public TravellingLayer {
 
   bool at_rest() const override { return false; }
 
-  bool may_cover(const cv::Rect&) const override { return true; }
+  cv::Rect covered(const cv::Rect& tile) const override { return tile; }
 
   bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
     cv::Vec4f second[Run::longest], first_mean[Run::longest], second_mean[Run::longest];

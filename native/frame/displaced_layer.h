@@ -14,6 +14,8 @@ struct Plate {
   Point origin;           ///< of its first pixel, in its own pixels: place x of the picture is index x * scale - origin.x - 0.5
   double scale = 1;       ///< its pixels for a picture pixel
   double output_scale = 1;
+  cv::Rect box;           ///< where it lies, picture pixels
+  bool endless_x = false, endless_y = false;
 };
 
 /// A layer that is the still layer, displaced (sway, ripple, bob, drift and whatever follows them): colour is sampled
