@@ -42,6 +42,16 @@ bool sample(const Plate& plate, const SharedDisplacement& displacement, const Ru
   return plate.source.sample(at.x, at.y, needed, run.count, out);
 }
 
+int around(int at, int size) { return (at % size + size) % size; }
+
+double brightness_beside_mean(const Plate& plate, const Plate& mean, int x, int y) {
+  const cv::Vec4f& colour = *plate.source.at(x, y);
+  const cv::Vec4f& usual = *mean.source.at(x, y);
+  if (colour[3] <= 0 || usual[3] <= 0) return 0;
+  const float share = colour[3] / usual[3];
+  return (colour[0] + colour[1] + colour[2]) - share * (usual[0] + usual[1] + usual[2]);
+}
+
 // The flow is the same for one copy and for two.
 class TravellingLayer : public LayerMotion {
  public:
@@ -115,10 +125,33 @@ class DisplacedLayer final : public TravellingLayer {
   cv::Rect bounds_;
 };
 
+// How alike the layer is to itself `apart` plate pixels away: correlation of its differences from the mean, 0 .. 1.
+double likeness(const Plate& plate, const Plate& mean, const Point& apart) {
+  constexpr int step = 4;
+  double both = 0, square = 0;
+  for (int y = 0; y < plate.source.height(); y += step)
+    for (int x = 0; x < plate.source.width(); x += step) {
+      const int other_x = around(x + static_cast<int>(std::lround(apart.x)), plate.source.width());
+      const int other_y = around(y + static_cast<int>(std::lround(apart.y)), plate.source.height());
+      const double here = brightness_beside_mean(plate, mean, x, y);
+      both += here * brightness_beside_mean(plate, mean, other_x, other_y);
+      square += here * here;
+    }
+  return square > 0 ? std::clamp(both / square, 0.0, 1.0) : 0.0;
+}
+
+// What differences from the mean are multiplied by, so that two copies, mixed, vary as much as one.
+float variance_gain(const Plate& plate, const Plate& mean, const Placement& now) {
+  if (plate.source.empty()) return 1;
+  const Point apart{(now.second_drifted.x - now.drifted.x) * plate.scale, (now.second_drifted.y - now.drifted.y) * plate.scale};
+  const double other = now.second_share, one = 1 - other;
+  return static_cast<float>(1 / std::sqrt(one * one + other * other + 2 * one * other * likeness(plate, mean, apart)));
+}
+
 class CrossFadedLayer final : public TravellingLayer {
  public:
   CrossFadedLayer(const Plate& plate, const Plate& mean, const Placement& now, const Travel& travel)
-      : TravellingLayer(plate, travel), mean_(mean), copies_(now) {}
+      : TravellingLayer(plate, travel), mean_(mean), copies_(now), gain_(variance_gain(plate, mean, now)) {}
 
   bool at_rest() const override { return false; }
 
@@ -131,18 +164,25 @@ class CrossFadedLayer final : public TravellingLayer {
     sample_or_clear(mean_, copies_.first, run, needed, first_mean);
     sample_or_clear(mean_, copies_.second, run, needed, second_mean);
     const auto other = static_cast<float>(copies_.second_share);
-    const float one = 1 - other, kept = 1 / std::sqrt(one * one + other * other);
+    const float one = 1 - other;
     for (int i = 0; i < run.count; ++i) {
       if (!needed[i]) continue;
       const cv::Vec4f plain = one * out[i] + other * second[i];
       const cv::Vec4f mean = one * first_mean[i] + other * second_mean[i];
-      const cv::Vec4f lively = mean + kept * (plain - mean);
-      out[i] = {lively[0], lively[1], lively[2], plain[3]};
+      out[i] = lively(plain, mean);
     }
     return true;
   }
 
  private:
+  // Straight colours are what differs from the mean; coverage dissolves.
+  cv::Vec4f lively(const cv::Vec4f& plain, const cv::Vec4f& mean) const {
+    if (plain[3] <= 0 || mean[3] <= 0) return plain;
+    const cv::Vec4f expected = mean * (plain[3] / mean[3]);
+    const cv::Vec4f colour = expected + gain_ * (plain - expected);
+    return {colour[0], colour[1], colour[2], plain[3]};
+  }
+
   static void sample_or_clear(const Plate& plate, const SharedDisplacement& displacement, const Run& run,
                               const unsigned char* needed, cv::Vec4f* out) {
     if (!sample(plate, displacement, run, needed, out)) std::fill_n(out, run.count, cv::Vec4f());
@@ -150,6 +190,7 @@ class CrossFadedLayer final : public TravellingLayer {
 
   const Plate& mean_;
   Placement copies_;
+  float gain_;
 };
 
 }  // namespace

@@ -22,10 +22,11 @@ struct Plate {
 /// through the map of this moment, the flow leads through the still picture to the map of the next.
 std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, const Placement& now, const Travel& travel);
 
-/// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half way. `mean`
-/// is the layer, blurred: what does not change where the copies differ.
+/// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half
+/// way. `mean` is the layer, blurred: what does not change where the copies differ; rho is how alike the layer is to
+/// itself at the distance of the copies. Of straight colours; coverage dissolves.
 ///
-///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2),   M = w1 M1 + w2 M2
+///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2 + 2 w1 w2 rho),   M = w1 M1 + w2 M2
 std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, const Placement& now, const Travel& travel);
 
 }  // namespace stillwater

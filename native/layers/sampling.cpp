@@ -19,6 +19,7 @@ void sample_plain(const float* origin, std::ptrdiff_t stride, const float* x, co
   for (int i = 0; i < count; ++i) {
     if (!needed[i]) continue;
     const float* pixel = origin + (w.row[i] - 1) * stride + std::ptrdiff_t{4} * (w.column[i] - 1);
+    ask_for_rows_below(pixel, stride);
     stillwater_v4 sum = {0, 0, 0, 0};
     for (int row = 0; row < 4; ++row, pixel += stride) {
       const auto* neighbour = reinterpret_cast<const stillwater_v4u*>(pixel);
@@ -64,13 +65,23 @@ struct Range {
   float low, high;
 };
 
+// Four lanes at a time: the compiler keeps the order of a single minimum.
 Range range(const float* at, int count) {
-  Range found{at[0], at[0]};
-  for (int i = 1; i < count; ++i) {
-    found.low = at[i] < found.low ? at[i] : found.low;
-    found.high = at[i] > found.high ? at[i] : found.high;
+  constexpr int lanes = 4;
+  float low[lanes], high[lanes];
+  std::fill_n(low, lanes, at[0]);
+  std::fill_n(high, lanes, at[0]);
+  int i = 0;
+  for (; i + lanes <= count; i += lanes)
+    for (int k = 0; k < lanes; ++k) {
+      low[k] = at[i + k] < low[k] ? at[i + k] : low[k];
+      high[k] = at[i + k] > high[k] ? at[i + k] : high[k];
+    }
+  for (; i < count; ++i) {
+    low[0] = std::min(low[0], at[i]);
+    high[0] = std::max(high[0], at[i]);
   }
-  return found;
+  return {*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ static inline void catmull_rom_weights(const float* at, int count, int* whole, f
   }
 }
 
+// Rows further down are sampled next: a tile's rows are too short for the processor to see that coming.
+static inline void ask_for_rows_below(const float* pixel, ptrdiff_t stride) { __builtin_prefetch(pixel + 6 * stride); }
+
 static inline stillwater_v4 within_coverage(stillwater_v4 colour) {
   const float coverage = colour[3];
   if (__builtin_expect(coverage > 1.000001f, 0)) return colour * (1.0f / coverage);
