@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 Motion = dict[str, Any]
 STILL: Motion = {"type": "still"}
 DRIFT: Motion = {"type": "drift"}
+BORDER = 0.01  # of the height: so near is at the border
 TINY = 0.006  # share of the picture
 WIDE = 0.5  # of the picture's width
-FLAT = 0.06  # of the picture's height: how far the top edge of water departs from a line
+FLAT = 0.08  # of the picture's height: how far the shore departs from a line
+SHORE = 0.7  # share of the columns where it must not
+SKY = 0.65  # of the picture's height: sky ends above
 UPRIGHT = 0.75  # height for a width
 TALL = 0.15  # of the picture's height
 
@@ -31,9 +34,11 @@ def armature(region: NDArray[np.bool_]) -> list[list[float]]:
     return [[float(x[low].mean()) + 0.5, float(y.max() + 1)], [float(x[high].mean()) + 0.5, float(y.min())]]
 
 
-def horizon_of(region: NDArray[np.bool_]) -> float:
-    """The row where water of this shape meets the land: what all but the top twentieth of its edge lies below."""
-    return float(np.percentile(top_edge(region), 5))
+def shore(region: NDArray[np.bool_]) -> tuple[float, float]:
+    """The row where water of this shape meets the land, and the share of its columns that agree."""
+    edge = top_edge(region)
+    near = abs(edge - np.median(edge)) <= FLAT * region.shape[0]
+    return float(edge[near].min()), float(near.mean())
 
 
 def guess_motion(region: NDArray[np.bool_]) -> Motion:
@@ -41,15 +46,22 @@ def guess_motion(region: NDArray[np.bool_]) -> Motion:
     height, width = region.shape
     rows, columns = np.flatnonzero(region.any(axis=1)), np.flatnonzero(region.any(axis=0))
     box_height, box_width = rows[-1] + 1 - rows[0], columns[-1] + 1 - columns[0]
-    top, bottom = rows[0] <= 0.01 * height, rows[-1] >= 0.99 * height
+    top, bottom = rows[0] <= BORDER * height, rows[-1] + 1 >= (1 - BORDER) * height
     if region.mean() < TINY or (top and bottom and box_width > WIDE * width):
         return STILL
     if top and box_width > WIDE * width:
-        return DRIFT
+        return DRIFT if np.percentile(np.nonzero(region)[0], 95) < SKY * height else STILL
     if bottom and box_width > WIDE * width:
-        return {"type": "ripple"} if top_edge(region).std() < FLAT * height else STILL
+        return {"type": "ripple"} if shore(region)[1] > SHORE else STILL
     if rows[-1] < 0.55 * height and box_height < UPRIGHT * box_width:
         return DRIFT
     if box_height > max(UPRIGHT * box_width, TALL * height) and rows[-1] > 0.4 * height:
         return {"type": "sway", "armature": armature(region)}
     return STILL
+
+
+def depth(region: NDArray[np.bool_], motion: Motion) -> int:
+    """Larger lies further back: what sways, what floats in the air, what stands, water, and the sky behind it all."""
+    if motion["type"] == "drift":
+        return 4 if region[0].any() else 1
+    return ["sway", "drift", "still", "ripple"].index(motion["type"])

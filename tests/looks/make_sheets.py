@@ -41,7 +41,8 @@ def scenes(folder: Path, names: list[str]) -> list[Scene]:
 def rendered(recipe: Path) -> np.ndarray | None:
     """The recipe's frames, or None where the engine refused or failed (it has said why)."""
     folder = recipe.parent / "frames"
-    command = [sys.executable, "-m", "stillwater", "render", str(recipe), "--output", str(folder), "--progress", "none"]
+    command = [sys.executable, "-m", "stillwater", "render", str(recipe), "--output", str(folder), "--fresh"]
+    command += ["--progress", "none"]
     try:
         code = subprocess.run(command, timeout=TIME_LIMIT, stdin=subprocess.DEVNULL).returncode
     except subprocess.TimeoutExpired:

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from guess_motions import STILL, guess_motion, horizon_of
+from guess_motions import STILL, depth, guess_motion, shore
 from label_colours import label_map, regions
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
+from scipy import ndimage
 
 WIDEST = 640  # pixels
-ORDER = ["sway", "bob", "still", "ripple", "drift"]  # front to back
+FRINGE = 2  # pixels; label maps and polygons end inside of what they cut out
 
 
 @dataclass
@@ -57,8 +58,8 @@ def scene_of_labels(name: str, picture: Path, labels: Path) -> Scene:
         motion = guess_motion(region)
         parts.append(Part(f"{motion['type']} {number}", region, motion))
         if motion["type"] == "ripple":
-            horizons.append(horizon_of(region))
-    parts.sort(key=lambda part: ORDER.index(part.motion["type"]))
+            horizons.append(shore(region)[0])
+    parts.sort(key=lambda part: depth(part.matte, part.motion))
     if not parts:
         parts.append(Part("all", None, STILL))
     parts[-1].matte = None
@@ -104,7 +105,8 @@ def write_recipe(scene: Scene, folder: Path, frames: int) -> Path:
         layer: dict[str, Any] = {"name": part.name}
         if part.matte is not None:
             file = f"mattes/{part.name.replace(' ', '_')}.png"
-            Image.fromarray(np.where(part.matte, 255, 0).astype(np.uint8)).save(folder / file)
+            whole = ndimage.binary_dilation(part.matte, iterations=FRINGE)
+            Image.fromarray(np.where(whole, 255, 0).astype(np.uint8)).save(folder / file)
             layer |= {"matte": {"file": file}, "feather": 1.5}
         if part.follows:
             layer["follows"] = part.follows
