@@ -1,3 +1,4 @@
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include "bindings/arrays.h"
@@ -22,7 +23,8 @@ LayerImage layer_image(const ExactArray& pixels, const std::array<int, 4>& box) 
 }
 
 std::vector<LayerImage> peel_arrays(const FloatArray& picture, const std::vector<std::optional<FloatArray>>& mattes,
-                                    const std::vector<FillGiven>& fills, const std::vector<double>& feathers) {
+                                    const std::vector<FillGiven>& fills, const std::vector<double>& feathers,
+                                    const Progress::Listener& progress) {
   if (fills.size() != mattes.size() || feathers.size() != mattes.size())
     throw BadInput("mattes, fills, feathers: not one of each for every layer");
   std::vector<PeelLayer> layers(mattes.size());
@@ -35,7 +37,7 @@ std::vector<LayerImage> peel_arrays(const FloatArray& picture, const std::vector
   }
   const Rgba image = as_image<cv::Vec4f>(picture, "picture");
   const py::gil_scoped_release release;
-  return peel(image, layers);
+  return peel(image, layers, Progress(progress));
 }
 
 py::array_t<float> push_pull_array(const FloatArray& known) { return as_array(push_pull(as_image<cv::Vec4f>(known, "known"))); }
@@ -79,7 +81,8 @@ void bind_layers(py::module_& module) {
   py::class_<Source>(module, "Source").def(py::init(&source_of), py::arg("image"));
   module.def("displace_over", &displace_over_array, py::arg("image"), py::arg("map"), py::arg("back").noconvert());
   module.def("over", &over_arrays, py::arg("front"), py::arg("back"));
-  module.def("peel", &peel_arrays, py::arg("picture"), py::arg("mattes"), py::arg("fills"), py::arg("feathers"));
+  module.def("peel", &peel_arrays, py::arg("picture"), py::arg("mattes"), py::arg("fills"), py::arg("feathers"),
+             py::arg("progress") = Progress::Listener());
   module.def("push_pull", &push_pull_array, py::arg("known"));
   module.def("make_cyclic", &make_cyclic_array, py::arg("image"), py::arg("along_x"), py::arg("along_y"));
   module.def("displace", &displace_array, py::arg("image"), py::arg("map"), py::arg("wraps_x") = false,

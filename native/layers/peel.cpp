@@ -183,11 +183,15 @@ void check_layers(const Rgba& picture, const std::vector<PeelLayer>& layers) {
 
 }  // namespace
 
-std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers) {
+std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers, Progress progress) {
   check_layers(picture, layers);
   Peeling peeling(picture);
   std::vector<LayerImage> taken;
-  for (const PeelLayer& layer : layers) taken.push_back(layer.matte ? peeling.take(layer) : peeling.rest());
+  progress.phase("cutting the layers", 1);
+  for (const PeelLayer& layer : layers) {
+    taken.push_back(layer.matte ? peeling.take(layer) : peeling.rest());
+    progress.at(static_cast<double>(taken.size()) / static_cast<double>(layers.size()));
+  }
   return taken;
 }
 

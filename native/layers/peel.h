@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/progress.h"
 #include "layers/layer_image.h"
 
 /// From a picture and the mattes of its layers to the layers themselves, front to back: each is taken off what is
@@ -31,7 +32,8 @@ struct PeelLayer {
 ///   the matte itself says there.
 /// - The last layer without a matte covers the whole picture.
 ///
-/// Throws BadInput where sizes differ, a matte is missing, or a feather is not within 0 .. 1000.
-std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers);
+/// Throws BadInput where sizes differ, a matte is missing, or a feather is not within 0 .. 1000; Cancelled where
+/// `progress`, asked after each layer, says so.
+std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers, Progress progress = {});
 
 }  // namespace stillwater

@@ -149,3 +149,17 @@ def test_what_does_not_fit_is_refused(mattes, fills, feathers, sentence):
 def test_a_box_that_is_not_that_of_the_pixels_is_refused():
     with pytest.raises(ValueError, match="box: its size is not that of the pixels"):
         engine.LayerImage(np.zeros((4, 5, 4), np.float32), (0, 0, 4, 5))
+
+
+def test_progress_is_told_and_can_cancel():
+    told = []
+
+    def listener(phase, share):
+        told.append((phase, share))
+        return True
+
+    mattes, fills = [box_matte(5, 20, 8, 30), None], [PUSH_PULL] * 2
+    engine.peel(picture(), mattes, fills, [0.0, 0.0], progress=listener)
+    assert told[0] == ("cutting the layers", 0.0) and told[-1] == ("cutting the layers", 1.0)
+    with pytest.raises(engine.Cancelled, match="cancelled"):
+        engine.peel(picture(), mattes, fills, [0.0, 0.0], progress=lambda phase, share: False)

@@ -72,11 +72,16 @@ class Job:
         """Leaves the layers in `stack`: from the cache, from another worker that is at it, or cut now."""
         if self.stack is not None:
             return
-        with self.cache.lock(self.sources.key, claim.beat):
+        with self.cache.lock(self.sources.key, claim.beat) as lock:
+
+            def beat() -> None:
+                claim.beat()
+                lock.beat()
+
             if not self.order.fresh:
                 self.stack = self.cache.find(self.sources.key)
             if self.stack is None:
-                layers = yield from cut(self.images, self.recipe)
+                layers = yield from cut(self.images, self.recipe, beat)
                 yield Preparing(0.8, "keeping the layers")
                 self.stack = self.cache.store(self.sources.key, layers)
         self.images = None

@@ -1,7 +1,7 @@
 """From the files of a recipe to the layers cut out of its picture: read, checked, peeled, kept in the cache."""
 
 import os
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -132,8 +132,16 @@ def filled_otherwise(recipe: Recipe) -> Iterator[str]:
         yield f"{', '.join(places)}: exemplar filling has no engine yet; filled by a smooth push-pull"
 
 
-def cut(images: Images, recipe: Recipe) -> Generator[Preparing, None, Prepared]:
-    """The layers of a picture, front first (engine.peel), with whatever was said about the files."""
+def cut(images: Images, recipe: Recipe, beat: Callable[[], None]) -> Generator[Preparing, None, Prepared]:
+    """The layers of a picture, front first (engine.peel), with whatever was said about the files.
+
+    `beat` is called again and again while it lasts.
+    """
+
+    def still_there(phase: str, share: float) -> bool:
+        beat()
+        return True
+
     feathers = [layer.feather for layer in recipe.layers]
     facts = {"warnings": images.warnings, "has_alpha": images.has_alpha}
     stacks = {"colour": (images.picture, images.fills)}
@@ -143,7 +151,7 @@ def cut(images: Images, recipe: Recipe) -> Generator[Preparing, None, Prepared]:
     arrays = {}
     for part, (name, (picture, fills)) in enumerate(stacks.items()):
         yield Preparing(0.4 + 0.4 * part / len(stacks), "cutting the layers")
-        layers = engine.peel(picture, mattes=images.mattes, fills=fills, feathers=feathers)
+        layers = engine.peel(picture, mattes=images.mattes, fills=fills, feathers=feathers, progress=still_there)
         facts[name] = [list(layer.box) for layer in layers]
         arrays |= {f"{name}{i}": layer.pixels for i, layer in enumerate(layers) if min(layer.box[2:]) > 0}
     return Prepared(arrays, facts)
