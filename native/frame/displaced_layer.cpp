@@ -115,9 +115,10 @@ class CrossFadedLayer final : public TravellingLayer {
     for (int i = 0; i < run.count; ++i) {
       if (!needed[i]) continue;
       const cv::Vec4f plain = one * out[i] + other * second[i];
-      const cv::Vec4f mean = one * first_mean[i] + other * second_mean[i];
-      const cv::Vec4f lively = mean + kept * (plain - mean);
-      out[i] = {lively[0], lively[1], lively[2], plain[3]};
+      cv::Vec4f mean = one * first_mean[i] + other * second_mean[i];
+      mean *= mean[3] > 0 ? plain[3] / mean[3] : 0;  // the layer's colour here, as far as it covers
+      for (int c = 0; c < 3; ++c) out[i][c] = std::max(0.0f, mean[c] + kept * (plain[c] - mean[c]));
+      out[i][3] = plain[3];
     }
     return true;
   }

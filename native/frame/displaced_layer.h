@@ -23,7 +23,9 @@ std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, const Placement
 /// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half way. `mean`
 /// is the layer, blurred: what does not change where the copies differ.
 ///
-///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2),   M = w1 M1 + w2 M2
+///     colour = M + (w1 S1 + w2 S2 - M) / sqrt(w1^2 + w2^2)
+///
+/// M is w1 M1 + w2 M2 with the coverage of w1 S1 + w2 S2: where the layer ends, its colour does not count as contrast.
 std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, const Placement& now, const Travel& travel);
 
 }  // namespace stillwater
