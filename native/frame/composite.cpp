@@ -43,11 +43,13 @@ class TileComposer {
     }
     int open = tile.area();
     for (int i = 0; i < static_cast<int>(layers_.size()) && open > 0; ++i) {
-      if (layers_[i].opacity <= 0 || !layers_[i].motion->may_cover(tile)) continue;
-      open = 0;
-      for (int y = 0; y < tile.height; ++y) {
-        if (rows_[y].open > 0) lay_under(i, {tile.x, tile.y + y, tile.width}, rows_[y]);
-        open += rows_[y].open;
+      if (layers_[i].opacity <= 0) continue;
+      const cv::Rect part = layers_[i].motion->covered(tile);
+      for (int y = part.y; y < part.br().y; ++y) {
+        RowState& row = rows_[y - tile.y];
+        open -= row.open;
+        if (row.open > 0) lay_under(i, part, y, tile.x, row);
+        open += row.open;
       }
     }
     for (int y = 0; y < tile.height; ++y) {
@@ -58,16 +60,18 @@ class TileComposer {
   }
 
  private:
-  void lay_under(int index, const Run& run, RowState& row) {
+  // One row of one layer, as far as it is needed.
+  void lay_under(int index, const cv::Rect& part, int y, int tile_x, RowState& row) {
     const ComposedLayer& layer = layers_[index];
-    int first = 0, last = run.count - 1;
-    while (!row.needed[first]) ++first;
-    while (!row.needed[last]) --last;
-    const Run open{run.x + first, run.y, last - first + 1};
+    int first = part.x - tile_x, last = first + part.width - 1;
+    while (first <= last && !row.needed[first]) ++first;
+    while (first < last && !row.needed[last]) --last;
+    if (first > last) return;
+    const Run open{tile_x + first, y, last - first + 1};
     if (!layer.motion->draw(open, row.needed + first, drawn_.data())) return;
-    row.open = stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, open.count,
-                                    result_.combined[open.y][open.x].val, row.through + first, row.moving + first,
-                                    row.most + first, row.owner + first, row.needed + first);
+    row.open -= stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, open.count,
+                                     result_.combined[y][open.x].val, row.through + first, row.moving + first,
+                                     row.most + first, row.owner + first, row.needed + first);
   }
 
   // Owners change rarely along a row: each stretch of one owner is one call.

@@ -71,7 +71,7 @@ Segment Motions::mirror_axis(int layer) const {
 
 namespace {
 
-Placement alone(const std::shared_ptr<const Displacement>& displacement) { return {displacement, nullptr, 0, {}}; }
+Placement alone(const std::shared_ptr<const Displacement>& displacement) { return {displacement, nullptr, 0, {}, {}}; }
 
 std::shared_ptr<const Displacement> translation(const Point& by) { return std::make_shared<Translation>(by); }
 
@@ -113,7 +113,8 @@ class MomentOfMotions {
   Placement drifting(int i, const Drift& clouds) const {
     const DriftCopies copies = drift(clouds, moment_, motions_.layers_[i].period);
     if (before_) return alone(translation(going_on(copies, (*before_)[i].drifted)));
-    return {translation(copies.first), translation(copies.second), copies.second_share, copies.first};
+    return {translation(copies.first), translation(copies.second), copies.second_share, copies.first,
+            copies.second};
   }
 
   Placement after_following(int i, const Placement& own) const {
@@ -124,7 +125,9 @@ class MomentOfMotions {
       return led && setup.mirror ? mirrored(led, motions_.mirror_axis(setup.follows)) : led;
     };
     Placement both{chained(followed(leader.first), own.first), nullptr, std::max(leader.second_share, own.second_share),
-                   own.drifted};
+                   {}, {}};
+    const Placement& drifting = own.second_share > 0 || leader.second_share <= 0 ? own : leader;
+    both.drifted = drifting.drifted, both.second_drifted = drifting.second_drifted;
     if (both.second_share > 0)
       both.second = chained(followed(leader.second_share > 0 ? leader.second : leader.first),
                             own.second_share > 0 ? own.second : own.first);

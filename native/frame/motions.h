@@ -31,7 +31,7 @@ struct MotionSetup {
 struct Placement {
   std::shared_ptr<const Displacement> first, second;
   double second_share = 0;  ///< above 0 where two copies are cross-faded
-  Point drifted;            ///< of a drift: offset of the first copy
+  Point drifted, second_drifted;  ///< of a drift: offset of each copy
 };
 
 /// A layer's way from one frame to the next, without the jumps of an endless layer that starts over: what flow is read

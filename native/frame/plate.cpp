@@ -52,7 +52,8 @@ LayerImage at_plate_scale(const LayerImage& layer, cv::Size picture, double scal
 }
 
 // At the picture's border a layer goes on, mirrored; elsewhere it ends.
-Plate as_plate(const LayerImage& scaled, cv::Size picture, double output_scale, Endless endless) {
+Plate as_plate(const LayerImage& scaled, const cv::Rect& layer_box, cv::Size picture, double output_scale,
+               Endless endless) {
   const Rgba& pixels = scaled.pixels;
   const cv::Rect& box = scaled.box;
   const double scale = std::min(1.0, output_scale);
@@ -64,6 +65,9 @@ Plate as_plate(const LayerImage& scaled, cv::Size picture, double output_scale, 
   plate.origin = {static_cast<double>(scaled.box.x), static_cast<double>(scaled.box.y)};
   plate.scale = scale;
   plate.output_scale = output_scale;
+  plate.box = layer_box;
+  plate.endless_x = endless.x;
+  plate.endless_y = endless.y;
   return plate;
 }
 
@@ -71,7 +75,8 @@ Plate as_plate(const LayerImage& scaled, cv::Size picture, double output_scale, 
 
 Plate make_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless) {
   if (layer.box.empty()) return {};
-  return as_plate(at_plate_scale(layer, picture, std::min(1.0, output_scale), endless), picture, output_scale, endless);
+  return as_plate(at_plate_scale(layer, picture, std::min(1.0, output_scale), endless), layer.box, picture, output_scale,
+                  endless);
 }
 
 Plate make_mean_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless) {
@@ -80,7 +85,7 @@ Plate make_mean_plate(const LayerImage& layer, cv::Size picture, double output_s
   const double sigma = std::max(1.0, mean_sigma * picture.width * std::min(1.0, output_scale));
   Rgba blurred;
   cv::GaussianBlur(scaled.pixels, blurred, cv::Size(), sigma, sigma, cv::BORDER_REPLICATE);
-  return as_plate({blurred, scaled.box}, picture, output_scale, endless);
+  return as_plate({blurred, scaled.box}, layer.box, picture, output_scale, endless);
 }
 
 Point plate_period(cv::Size picture, double output_scale) {

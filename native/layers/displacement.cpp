@@ -1,5 +1,6 @@
 #include "layers/displacement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -41,6 +42,8 @@ class Mirrored final : public Displacement {
   bool at_rest() const override { return base_->at_rest(); }
   float reach() const override { return base_->reach(); }
 
+  cv::Rect spread(const cv::Rect& box) const override { return reflected(base_->spread(reflected(box))); }
+
   void map(float* x, float* y, int count) const override {
     reflect(x, y, count);
     base_->map(x, y, count);
@@ -54,6 +57,16 @@ class Mirrored final : public Displacement {
   }
 
  private:
+  // The upright box around the mirrored one.
+  cv::Rect reflected(const cv::Rect& box) const {
+    float x[4] = {float(box.x), float(box.br().x), float(box.x), float(box.br().x)};
+    float y[4] = {float(box.y), float(box.y), float(box.br().y), float(box.br().y)};
+    reflect(x, y, 4);
+    const auto [left, right] = std::minmax_element(x, x + 4);
+    const auto [top, bottom] = std::minmax_element(y, y + 4);
+    return {cv::Point(int(std::floor(*left)), int(std::floor(*top))), cv::Point(int(std::ceil(*right)), int(std::ceil(*bottom)))};
+  }
+
   void reflect(float* x, float* y, int count) const {
     const auto nx = static_cast<float>(normal_.x), ny = static_cast<float>(normal_.y);
     const auto offset = static_cast<float>(normal_.x * on_axis_.x + normal_.y * on_axis_.y);
@@ -75,6 +88,8 @@ class Chained final : public Displacement {
 
   bool at_rest() const override { return first_->at_rest() && then_->at_rest(); }
   float reach() const override { return first_->reach() + then_->reach(); }
+
+  cv::Rect spread(const cv::Rect& box) const override { return then_->spread(first_->spread(box)); }
 
   void map(float* x, float* y, int count) const override {
     first_->map(x, y, count);
@@ -101,6 +116,11 @@ std::shared_ptr<const Displacement> chained(std::shared_ptr<const Displacement> 
                                             std::shared_ptr<const Displacement> then) {
   if (!first || !then) return first ? first : then;
   return std::make_shared<Chained>(std::move(first), std::move(then));
+}
+
+cv::Rect Displacement::spread(const cv::Rect& box) const {
+  const int by = static_cast<int>(std::ceil(reach())) + 1;
+  return {box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by};
 }
 
 void Displacement::unmap_row(float x0, float y0, float step, int count, float* x, float* y) const {

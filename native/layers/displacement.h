@@ -24,6 +24,9 @@ class Displacement {
   /// No point of the picture is displaced further than this, pixels.
   virtual float reach() const = 0;
 
+  /// Picture pixels outside of which nothing of `box` (of the still picture) is displaced to.
+  virtual cv::Rect spread(const cv::Rect& box) const;
+
   virtual void map(float* x, float* y, int count) const = 0;
   virtual void unmap(float* x, float* y, int count) const = 0;
 

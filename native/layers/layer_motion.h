@@ -19,8 +19,8 @@ class LayerMotion {
   /// True where the layer looks exactly as in the still picture at this moment.
   virtual bool at_rest() const = 0;
 
-  /// False where the layer is surely transparent in all of these output pixels.
-  virtual bool may_cover(const cv::Rect& tile) const = 0;
+  /// The part of a tile (output pixels) beside which the layer is surely transparent; empty where all of it is.
+  virtual cv::Rect covered(const cv::Rect& tile) const = 0;
 
   /// Premultiplied colour and coverage of a run. Where `needed` is 0 the result is not read, and need not be made.
   /// Answers false where the whole run is transparent (`out` is then not filled).

@@ -3,12 +3,12 @@
 /// `over`, seen from the front: `drawn` (premultiplied rgba, `count` pixels) goes under what is composed so far.
 /// Pixels whose `needed` is 0 are passed by; it becomes 0 where less than 1/10000 of what lies behind would be seen.
 /// The layer `index` becomes the owner of a pixel whose coverage from the front it brings to one half; until then
-/// the layer that contributes most owns it. Answers how many pixels are needed still.
+/// the layer that contributes most owns it. Answers how many pixels are needed no more.
 static inline int stillwater_lay_under(const float* drawn, float opacity, float moves, int index, int count,
                                        float* combined, float* through, float* moving, float* most, int* owner,
                                        unsigned char* needed) {
   typedef float v4 __attribute__((vector_size(16), aligned(4)));
-  int open = 0;
+  int closed = 0;
   for (int i = 0; i < count; ++i) {
     if (!needed[i]) continue;
     const float behind = through[i], share = behind * opacity;
@@ -22,8 +22,8 @@ static inline int stillwater_lay_under(const float* drawn, float opacity, float 
       }
       through[i] = behind - contribution;
       needed[i] = through[i] > 1e-4f;
+      closed += !needed[i];
     }
-    open += needed[i];
   }
-  return open;
+  return closed;
 }

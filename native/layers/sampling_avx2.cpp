@@ -27,6 +27,7 @@ void stillwater_sample_avx2(const float* origin, ptrdiff_t stride, const float* 
   for (int i = 0; i < count; ++i) {
     if (!needed[i]) continue;
     const float* pixel = origin + (ptrdiff_t)(w.row[i] - 1) * stride + (ptrdiff_t)(w.column[i] - 1) * 4;
+    ask_for_rows_below(pixel, stride);
     const __m256 first = both(&w.x[0][i], &w.x[1][i]), second = both(&w.x[2][i], &w.x[3][i]);
     __m256 sum = _mm256_mul_ps(_mm256_broadcast_ss(&w.y[0][i]), add_pair(pair(pixel, first), pixel + 8, second));
     for (int row = 1; row < 4; ++row) {
@@ -37,3 +38,5 @@ void stillwater_sample_avx2(const float* origin, ptrdiff_t stride, const float* 
     _mm_storeu_ps(out + 4 * i, (__m128)within_coverage((stillwater_v4)colour));
   }
 }
+
+void stillwater_range_avx2(const float* at, int count, float* low, float* high) { sampling_range(at, count, low, high); }

@@ -42,6 +42,20 @@ Box level_box(const WaterPlane& plane, cv::Rect region) {
   return box;
 }
 
+/// The whole picture pixels around a box of level coordinates.
+cv::Rect picture_box(const WaterPlane& plane, const Box& box) {
+  constexpr double limit = 1e6;
+  double left = limit, right = -limit, top = limit, bottom = -limit;
+  for (const double x : {box.left, box.right})
+    for (const double y : {box.top, box.bottom}) {
+      const Point p = plane.picture({x, y});
+      left = std::max(-limit, std::min(left, p.x)), right = std::min(limit, std::max(right, p.x));
+      top = std::max(-limit, std::min(top, p.y)), bottom = std::min(limit, std::max(bottom, p.y));
+    }
+  return {cv::Point(static_cast<int>(std::floor(left)) - 1, static_cast<int>(std::floor(top)) - 1),
+          cv::Point(static_cast<int>(std::ceil(right)) + 1, static_cast<int>(std::ceil(bottom)) + 1)};
+}
+
 /// Calls `move(level)`, which changes it, for each point below the horizon.
 template <class Move>
 void for_each_level(const WaterPlane& plane, float* x, float* y, int count, const Move& move) {
@@ -93,7 +107,8 @@ RaisedWater::RaisedWater(const WaterPlane& plane, cv::Size picture, cv::Rect reg
   const double far_x = up * std::max(std::abs(box.left), std::abs(box.right));
   const double far_y = water_.pull + up * std::max(std::abs(box.top), std::abs(box.bottom));
   reach_ = static_cast<float>(kappa / (1 - kappa * up) * std::hypot(far_x, far_y) * (1 + 1e-5));
-  if (!at_rest()) keep_region(region, picture.height);
+  const cv::Rect seen = spread(region) & cv::Rect(-2, -2, picture.width + 4, picture.height + 4);
+  if (!at_rest()) keep_region(seen, picture.height);
 }
 
 /// The point r goes to r + share (n - n_z r), share = kappa / (1 + kappa n_z).
@@ -105,6 +120,26 @@ RaisedWater::Raise RaisedWater::raise(Point level) const {
 }
 
 double RaisedWater::lift(float share, double level_y) const { return -share * (water_.pull + water_.up_z * level_y); }
+
+/// The highest crest and the deepest trough lift a point in proportion to its distance from the horizon: the sides of the
+/// box bound where it goes.
+cv::Rect RaisedWater::spread(const cv::Rect& box) const {
+  if (box.empty()) return box;
+  const Box level = level_box(plane_, box);
+  Box reached = level;
+  for (const double y : {std::max(level.top, plane_.horizon()), std::max(level.bottom, plane_.horizon())})
+    for (const double rise : {heights_.bound(), -heights_.bound()}) {
+      const float below = static_cast<float>(y - plane_.horizon());
+      const float share = raised_share(water_, static_cast<float>(rise), below);
+      const double to_y = y + lift(share, y);
+      reached.top = std::min(reached.top, to_y), reached.bottom = std::max(reached.bottom, to_y);
+      for (const double x : {level.left, level.right}) {
+        const double to_x = x - share * water_.up_z * x;
+        reached.left = std::min(reached.left, to_x), reached.right = std::max(reached.right, to_x);
+      }
+    }
+  return picture_box(plane_, reached);
+}
 
 /// y of the point that comes to level_y when it is raised by `rise`.
 double RaisedWater::furthest_source(double level_y, double rise) const {

@@ -17,11 +17,13 @@ namespace stillwater {
 /// surfaces").
 class RaisedWater final : public Displacement {
  public:
-  /// `region`, picture pixels: where unmap() will be asked; elsewhere it searches point by point.
+  /// `region`, picture pixels: where map() will be asked, and unmap() within its spread(); elsewhere unmap() searches
+  /// point by point.
   RaisedWater(const WaterPlane& plane, cv::Size picture, cv::Rect region, FilteredWater heights);
 
   bool at_rest() const override { return reach_ == 0; }
   float reach() const override { return reach_; }
+  cv::Rect spread(const cv::Rect& box) const override;
   void map(float* x, float* y, int count) const override;
   void unmap(float* x, float* y, int count) const override;
 

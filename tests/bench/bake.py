@@ -26,7 +26,7 @@ def _together() -> Row:
         path = str(Path(folder) / "frame.exr")
 
         def write(frame):
-            engine.write_frame(path, frame.combined, frame.flow, frame.matte, half=True, compression="zip", key="bench")
+            engine.write_frame(path, frame.combined, frame.flow, frame.matte, options=engine.FrameOptions(half=True, compression="zip", key="bench"))
 
         both, compute, writing = medians(
             lambda: write(bed.next_frame(flow=True)), lambda: bed.next_frame(flow=True), lambda: write(kept), runs=9, warmup=1

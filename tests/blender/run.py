@@ -25,8 +25,12 @@ def run_here(zip_file: Path, file: Path, report: Path, options: list[str]) -> No
     """Installs the zip into this process's Blender, runs one file, never returns."""
     import bpy
     import pytest
+    from pixels import PACKAGE
 
     bpy.ops.extensions.package_install_files(repo="user_default", filepath=str(zip_file), enable_on_install=True)
+    if PACKAGE not in bpy.context.preferences.addons:
+        print(f"{zip_file}: could not be installed", flush=True)
+        os._exit(1)
     command = [str(file), "-q", "--import-mode=importlib", "-p", "no:cacheprovider", f"--timeout={TEST_LIMIT}"]
     code = pytest.main([*command, f"--rootdir={HERE}", f"--junitxml={report}", *options])
     sys.stdout.flush()

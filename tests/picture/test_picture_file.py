@@ -1,6 +1,7 @@
 """A file that is written comes whole or not at all: full disks, folders that take nothing, signals in the middle."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -47,7 +48,8 @@ def test_a_folder_of_that_name(tmp_path, name, write):
 def small_disk(tmp_path_factory):
     folder = tmp_path_factory.mktemp("small")
     mount = ["mount", "-t", "tmpfs", "-o", "size=512k", "tmpfs", str(folder)]
-    if os.geteuid() != 0 or subprocess.run(mount, capture_output=True, timeout=20).returncode != 0:
+    may = os.geteuid() == 0 and shutil.which("mount")
+    if not may or subprocess.run(mount, capture_output=True, timeout=20).returncode != 0:
         pytest.skip("a small disk can be mounted by root only")
     yield folder
     subprocess.run(["umount", str(folder)], timeout=20, check=True)

@@ -5,7 +5,7 @@ build_packages="g++ cmake ninja-build pkg-config python3 python3-dev python3-ven
 run_packages="ffmpeg"
 blender_packages="libxi6 libxxf86vm1 libxfixes3 libxrender1 libxkbcommon0 libsm6 libice6 libgl1 libegl1
   libegl-mesa0 libgl1-mesa-dri"
-test_packages="qemu-user openimageio-tools"
+test_packages="qemu-user openimageio-tools mount"
 
 as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
