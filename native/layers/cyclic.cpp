@@ -45,21 +45,19 @@ int best_piece(const Rgba& image, int strip, int blend) {
 float smooth_step(float t) { return t * t * (3 - 2 * t); }
 
 // For each row what must be added to the columns from `at` on, in the direction of `step`, to have the tone of those
-// from `wanted` on, in the direction of `wanted_step`; smooth along the column.
+// from `wanted` on, in the direction of `wanted_step`; smooth along the column. It counts where both cover, and leaves
+// coverage alone.
 Rgba tone_step(const Rgba& image, int at, int step, int wanted, int wanted_step, int blend) {
   Rgba steps = Rgba::zeros(image.rows, 1);
   for (int y = 0; y < image.rows; ++y)
-    for (int j = 0; j < blend; ++j)
-      steps(y, 0) += (image(y, wanted + j * wanted_step) - image(y, at + j * step)) * (1.0 / blend);
+    for (int j = 0; j < blend; ++j) {
+      const cv::Vec4f &have = image(y, at + j * step), &want = image(y, wanted + j * wanted_step);
+      steps(y, 0) += (want - have) * (std::min(have[3], want[3]) / static_cast<float>(blend));
+    }
+  for (cv::Vec4f& tone : steps) tone[3] = 0;
   const double sigma = std::max(1.0, image.rows / 16.0);
   cv::GaussianBlur(steps, steps, cv::Size(1, 0), 1, sigma, cv::BORDER_REPLICATE);
   return steps;
-}
-
-cv::Vec4f in_range(cv::Vec4f pixel) {
-  for (int c = 0; c < 4; ++c) pixel[c] = std::max(pixel[c], 0.0f);
-  pixel[3] = std::min(pixel[3], 1.0f);
-  return pixel;
 }
 
 Rgba continued_to_the_right(const Rgba& image) {
@@ -74,7 +72,9 @@ Rgba continued_to_the_right(const Rgba& image) {
     for (int j = 0; j < strip; ++j) {
       const int left = strip - 1 - j;
       const float t = (j + 0.5f) / strip;
-      cv::Vec4f pixel = in_range(image(y, start + j) + (1 - t) * from(y, 0) + t * to(y, 0));
+      cv::Vec4f pixel = image(y, start + j);
+      const cv::Vec4f tone = pixel[3] * ((1 - t) * from(y, 0) + t * to(y, 0));
+      for (int c = 0; c < 3; ++c) pixel[c] = std::max(0.0f, pixel[c] + tone[c]);
       if (std::min(j, left) < blend) {
         const float share = smooth_step((std::min(j, left) + 0.5f) / blend);
         pixel = share * pixel + (1 - share) * (j < left ? image(y, side - 1 - j) : image(y, left));

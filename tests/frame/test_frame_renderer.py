@@ -64,6 +64,16 @@ def test_the_loops_first_frame_has_the_clouds_where_they_were_painted():
     assert np.allclose(clouds, stage.image[:20, 30:], atol=1e-6)
 
 
+def test_a_cloud_that_cross_fades_gets_neither_brighter_nor_an_outline():
+    cloud = matte(8, 20, 30, 60)
+    image = np.ones((*cloud.shape, 4), np.float32)
+    image[..., :3] = np.where(cloud > 0, 0.9, 0.2)[..., None]
+    stage = Stage(image=image, mattes=[cloud, None], motions=[engine.Drift(), None], ties=[{"endless": (True, False)}, {}], loop=32)
+    for t in (9, 17, 25):
+        shown = stage.frame(t).combined[..., :3]
+        assert 0.19 < shown.min() and shown.max() < 0.91
+
+
 def test_numbers_are_numbers():
     for t in (-500, 1, 7, 100_000):
         frame = Stage(gusts=1.0, direction=200.0).frame(t)

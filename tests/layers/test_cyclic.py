@@ -48,6 +48,14 @@ def test_the_strip_keeps_the_contrast_of_the_picture():
 
 def test_the_tone_of_the_strip_leads_from_the_end_to_the_beginning():
     ramp = np.linspace(0.2, 0.8, 240, dtype=np.float32)[None, :, None].repeat(20, 0).repeat(4, 2)
-    means = engine.make_cyclic(ramp, True, False)[:, 240:].mean(axis=(0, 2))
+    ramp[..., 3] = 1
+    means = engine.make_cyclic(ramp, True, False)[:, 240:, :3].mean(axis=(0, 2))
     assert np.all(np.diff(means[15:-15]) < 0)
     assert means.max() < 0.81 and means.min() > 0.19
+
+
+def test_what_ends_at_the_border_leaves_no_ghost_in_the_strip():
+    image = np.zeros((40, 256, 4), np.float32)
+    image[10:30, 250:] = image[5:20, 100:150] = (0.9, 0.1, 0.2, 1)
+    coverage = engine.make_cyclic(image, True, False)[:, 256 + 16 : -16, 3]
+    assert np.all((coverage == 0) | (coverage == 1))

@@ -15,7 +15,7 @@ TINY = 0.006  # share of the picture
 WIDE = 0.5  # of the picture's width
 FLAT = 0.08  # of the picture's height: how far the shore departs from a line
 SHORE = 0.7  # share of the columns where it must not
-SKY = 0.65  # of the picture's height: sky ends above
+SKY = 0.75  # of the picture's height: sky ends above
 UPRIGHT = 0.75  # height for a width
 TALL = 0.15  # of the picture's height
 

@@ -18,7 +18,7 @@ from .resolve import Now, Timeline
 ENGINES = {
     "picture": 1,
     "layers": 2,
-    "frame": 1,
+    "frame": 2,
     "wind": 1,
     "still": 1,
     "sway": 1,
