@@ -9,8 +9,9 @@ namespace stillwater {
 ///
 ///     |picture| strip |picture| strip ...
 ///
-/// The strip is a quarter of the side wide; in it the picture, mirrored at its end, is blended with the picture
-/// mirrored at its beginning.
+/// The strip is a quarter of the side wide: a piece of the picture itself, the one whose ends fit best, its tone drawn
+/// linearly to what it must meet. Over a quarter of the strip at its ends it is blended with the picture mirrored
+/// there; the eye would find more of a mirror image.
 Rgba make_cyclic(const Rgba& image, bool along_x, bool along_y);
 
 /// Length of one period of make_cyclic() for a side of this many pixels.

@@ -14,6 +14,11 @@ namespace {
 
 constexpr int grain = 32;
 
+// A hole is filled from what lies at least so far from the matte, px: mattes end a little inside of what they cut out.
+constexpr int fringe = 3;
+// What a fringe still says where nothing better is near.
+constexpr float fringe_share = 1e-3f;
+
 template <class Work>
 void each_pixel(const cv::Size& size, const Work& work) {
   parallel_rows(size.height, grain, [&](int first, int last) {
@@ -109,7 +114,11 @@ class Peeling {
       return back;
     }
     if (std::get<Fill>(layer.fill) == Fill::none) return left_(box).clone();
-    return filled(left_(box), [&](int y, int x) { return purity(matte(y, x)); });
+    Plane wide;
+    cv::dilate(matte, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * fringe + 1, 2 * fringe + 1)));
+    return filled(left_(box), [&](int y, int x) {
+      return std::max(purity(wide(y, x)), fringe_share * purity(matte(y, x)));
+    });
   }
 
   static void split_remainder(const Rgba& picture, const Plane& matte, Rgba& front, Rgba& back) {

@@ -11,7 +11,7 @@
 namespace stillwater {
 
 enum class Fill {
-  push_pull,  ///< smoothly, from what surrounds the hole
+  push_pull,  ///< smoothly, from what surrounds the hole at 3 px or more (nearer lies the fringe of what was cut out)
   none,       ///< transparent behind what the layer covers wholly
 };
 

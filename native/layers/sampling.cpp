@@ -53,36 +53,28 @@ void wrap(float* at, int count, int size) {
   for (int i = 0; i < count; ++i) at[i] -= period * std::floor(at[i] / period);
 }
 
-void bring_inside(float* at, int count, int size, const Beyond& beyond) {
+struct Range {
+  float low, high;
+
+  Range(const float* at, int count) {
+    static const auto find = has_avx2() ? stillwater_range_avx2 : sampling_range;
+    find(at, count, &low, &high);
+  }
+
+  bool within(int size) const { return low >= 0 && high <= static_cast<float>(size - 1); }
+};
+
+// Places brought inside, and where they lie then.
+Range bring_inside(float* at, int count, int size, const Beyond& beyond) {
+  const Range given(at, count);
+  if (given.within(size)) return given;
   if (beyond.wraps) wrap(at, count, size);
   else fold(at, count, size, beyond.mirror_low, beyond.mirror_high);
   hold(at, count, size);
+  return Range(at, count);
 }
 
 int border_of(const Beyond& beyond) { return beyond.wraps ? cv::BORDER_WRAP : cv::BORDER_REFLECT; }
-
-struct Range {
-  float low, high;
-};
-
-// Four lanes at a time: the compiler keeps the order of a single minimum.
-Range range(const float* at, int count) {
-  constexpr int lanes = 4;
-  float low[lanes], high[lanes];
-  std::fill_n(low, lanes, at[0]);
-  std::fill_n(high, lanes, at[0]);
-  int i = 0;
-  for (; i + lanes <= count; i += lanes)
-    for (int k = 0; k < lanes; ++k) {
-      low[k] = at[i + k] < low[k] ? at[i + k] : low[k];
-      high[k] = at[i + k] > high[k] ? at[i + k] : high[k];
-    }
-  for (; i < count; ++i) {
-    low[0] = std::min(low[0], at[i]);
-    high[0] = std::max(high[0], at[i]);
-  }
-  return {*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
-}
 
 }  // namespace
 
@@ -119,19 +111,18 @@ bool Source::is_clear_inside(const cv::Rect& area) const {
   return sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left) == 0;
 }
 
-// For places within [-1, size].
-bool Source::is_clear(const float* x, const float* y, int count) const {
-  const Range across = range(x, count), down = range(y, count);
-  const cv::Point first(static_cast<int>(across.low) - 1, static_cast<int>(down.low) - 1);
-  const cv::Point last(static_cast<int>(across.high) + 1, static_cast<int>(down.high) + 1);
-  return is_clear_inside(cv::Rect(first, last));
+bool Source::copy(int x, int y, int count, cv::Vec4f* out) const {
+  if (empty() || is_clear_inside(cv::Rect(x, y, count, 1))) return false;
+  std::copy_n(at(x, y), count, out);
+  return true;
 }
 
 bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {
   if (empty()) return false;
-  bring_inside(x, count, width_, across_);
-  bring_inside(y, count, height_, down_);
-  if (is_clear(x, y, count)) return false;
+  const Range across = bring_inside(x, count, width_, across_), down = bring_inside(y, count, height_, down_);
+  const cv::Point first(static_cast<int>(across.low) - 1, static_cast<int>(down.low) - 1);
+  const cv::Point last(static_cast<int>(across.high) + 1, static_cast<int>(down.high) + 1);
+  if (is_clear_inside(cv::Rect(first, last))) return false;
   static const auto kernel = has_avx2() ? stillwater_sample_avx2 : sample_plain;
   const float* origin = at(0, 0)->val;
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(padded_.step1());

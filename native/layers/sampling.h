@@ -33,7 +33,10 @@ class Source {
   /// `x` and `y` are used up.
   bool sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
 
-  /// Pixel (x, y), inside the image: what sample() gives there.
+  /// The same as sample() for `count` pixels from (x, y) on, at most 4 outside of the image.
+  bool copy(int x, int y, int count, cv::Vec4f* out) const;
+
+  /// Pixel (x, y), at most 4 outside of the image: what sample() gives there.
   const cv::Vec4f* at(int x, int y) const { return &padded_(y + frame, x + frame); }
 
  private:
@@ -41,7 +44,6 @@ class Source {
   static constexpr int block = 8;
 
   void map_coverage();
-  bool is_clear(const float* x, const float* y, int count) const;
   bool is_clear_inside(const cv::Rect& area) const;
 
   Rgba padded_;

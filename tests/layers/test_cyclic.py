@@ -36,3 +36,18 @@ def test_neither_axis_changes_nothing():
 
 def test_one_pixel():
     assert engine.make_cyclic(SMOOTH[:1, :1], True, True).shape == (2, 2, 4)
+
+
+def test_the_strip_keeps_the_contrast_of_the_picture():
+    """Two mirror images laid over each other would have 0.7 of it, and show."""
+    noise = RNG.normal(0.5, 0.1, (40, 256, 4)).astype(np.float32)
+    strip = engine.make_cyclic(noise, True, False)[:, 256:]
+    assert strip[:, 16:-16].std() > 0.95 * noise.std()
+    assert strip[:, :16].std() > 0.7 * noise.std()
+
+
+def test_the_tone_of_the_strip_leads_from_the_end_to_the_beginning():
+    ramp = np.linspace(0.2, 0.8, 240, dtype=np.float32)[None, :, None].repeat(20, 0).repeat(4, 2)
+    means = engine.make_cyclic(ramp, True, False)[:, 240:].mean(axis=(0, 2))
+    assert np.all(np.diff(means[15:-15]) < 0)
+    assert means.max() < 0.81 and means.min() > 0.19

@@ -68,6 +68,14 @@ def test_the_hole_is_filled_with_what_surrounds_it():
     assert np.allclose(behind, (0.2, 0.5, 0.8, 1), atol=1e-4)
 
 
+def test_what_a_matte_left_at_its_edge_does_not_fill_the_hole():
+    image = np.zeros((*SIZE, 4), np.float32)
+    image[...] = (0.2, 0.5, 0.8, 1)
+    image[8:32, 8:32, :3] = 0
+    behind = whole_layer(peel(image, [box_matte(10, 30, 10, 30), None])[1])
+    assert np.allclose(behind[10:30, 10:30], (0.2, 0.5, 0.8, 1), atol=0.02)
+
+
 def test_a_painted_background_stands_behind():
     painted = picture()
     behind = whole_layer(peel(picture(), [box_matte(10, 30, 10, 30), None], [painted, PUSH_PULL])[1])

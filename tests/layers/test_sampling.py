@@ -73,8 +73,12 @@ def test_coverage_stays_within_0_and_1_and_straight_colour_is_kept():
 
 
 def test_places_that_are_no_numbers_sample_inside():
-    moved = engine.displace(OPAQUE, constant_map(np.nan, np.inf))
-    assert np.isfinite(moved).all()
+    for bad in (np.nan, np.inf, -np.inf):
+        map = RNG.normal(0, 2, (37, 53, 2)).astype(np.float32)
+        map[5, 7, 0] = map[20, 40, 1] = map[36, 52] = bad
+        assert np.isfinite(engine.displace(OPAQUE, map)).all()
+        assert np.isfinite(engine.displace(OPAQUE, map, wraps_x=True, wraps_y=True)).all()
+    assert np.isfinite(engine.displace(OPAQUE, constant_map(np.nan, np.inf))).all()
 
 
 def test_the_plain_way_gives_the_same(tmp_path):
