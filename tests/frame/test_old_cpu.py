@@ -2,6 +2,7 @@
 from the picture to the EXR, and gives the frames that it gives here."""
 
 import functools
+import os
 import platform
 import shutil
 import subprocess
@@ -20,6 +21,8 @@ OLD_CPU = [QEMU, "-cpu", "Nehalem"]
 @functools.cache
 def why_not():
     """Why no old CPU can be played here, or nothing."""
+    if "STILLWATER_SANITIZED" in os.environ:
+        return "the sanitizers and qemu can't share a process"
     if platform.machine().lower() not in ("x86_64", "amd64"):
         return f"this machine is no x86-64 but {platform.machine()}"
     if shutil.which(QEMU) is None:

@@ -20,21 +20,22 @@ state_of() {
   (cd "$repository" && find "$@" -type f -not -name '*.pyc' -printf '%p %s %T@\n' | LC_ALL=C sort | sha256sum | cut -d' ' -f1)
 }
 
-# venv FOLDER NAME=REQUIREMENT...: a virtual environment that holds these.
+# venv FOLDER NAME=REQUIREMENT...: a virtual environment that holds these, beside what it was asked to hold before.
 venv() {
   local folder="$1" wanted="${*:2}"
   local stamp
-  stamp="venv-$(basename "$folder")"
-  once "$stamp" "$wanted" || return 0
-  [ -x "$folder/bin/python" ] || "$system_python" -m venv "$folder"
+  stamp="venv-$(basename "$folder")-$(printf '%s' "$wanted" | sha256sum | cut -c1-12)"
+  [ -x "$folder/bin/python" ] && ! once "$stamp" "$wanted" && return 0
+  [ -x "$folder/bin/python" ] || "$system_python" -m venv "$folder" || return 1
   echo "installing in $(basename "$folder"): $wanted"
-  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "${@:2}"
+  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "${@:2}" || return 1
   done_once "$stamp" "$wanted"
 }
 
 prepare_engine() {
-  install_packages $build_packages $run_packages
-  venv "$build/venv" numpy msgspec tqdm scikit-build-core pybind11 pytest pytest-timeout hypothesis scipy pillow
+  install_packages $build_packages $run_packages || return 1
+  venv "$build/venv" numpy msgspec tqdm scikit-build-core pybind11 pytest pytest-timeout hypothesis scipy pillow ||
+    return 1
   local state
   state="$(state_of native CMakeLists.txt)"
   once engine "$state" || return 0
@@ -46,7 +47,7 @@ prepare_engine() {
     --config-settings=build-dir="$build/engine" --config-settings=cmake.define.STILLWATER_WERROR="${CI:+ON}" ||
     return 1
   "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
-    "$build"/wheels/stillwater-*.whl
+    "$build"/wheels/stillwater-*.whl || return 1
   done_once engine "$state"
 }
 
@@ -60,7 +61,7 @@ prepare_blender() {
     3.13) blender_version=5.2 ;;
     *) echo "no bpy package fits Python $python_version (3.11 has Blender 4.5, 3.13 has 5.2)" >&2; return 1 ;;
   esac
-  install_packages $blender_packages
+  install_packages $blender_packages || return 1
   venv "$build/blender-venv" "bpy==$blender_version.*" numpy "$@"
 }
 
