@@ -32,9 +32,9 @@ class Boat:
         stern: how broad the transom is, in beams; sheer: how far the bow rises, in freeboards.
         """
         self.length, self.beam, self.stern = length, beam, stern
-        s = np.linspace(-1, 1, 41)
+        s = np.linspace(-1, 1, 81)
         rise = freeboard * (1 + sheer * np.clip(s, 0, 1) ** 2 + 0.3 * sheer * np.clip(-s, 0, 1) ** 2)
-        v = np.linspace(0, 1, 13)
+        v = np.linspace(0, 1, 61)
         skin, inner = [], []
         for side in (1, -1):
             half = self.half_beam(s)[:, None] * (0.55 + 0.45 * np.sqrt(v))[None, :]
@@ -58,7 +58,7 @@ class Boat:
         faces = _sheet(cross.shape[:2])
         self.parts.append(mesh("transom", self.put(cross.reshape(-1, 3)), faces, material,
                                np.tile(np.array(bands[-1][1]) * 0.8, (len(faces), 1))))
-        deck = np.stack([inner[0][:, 6], inner[1][:, 6]])
+        deck = np.stack([inner[0][:, 30], inner[1][:, 30]])
         faces = _sheet(deck.shape[:2])
         self.parts.append(mesh("floor", self.put(deck.reshape(-1, 3)), faces, material,
                                np.tile([0.16, 0.1, 0.05], (len(faces), 1))))
@@ -89,17 +89,24 @@ class Boat:
         self.parts.append(mesh("spar", self.put(tube.reshape(-1, 3)), _sheet(tube.shape[:2]), material))
 
     def sail(self, corners: list, belly: float, material: bpy.types.Material, tone: tuple, seams: int = 7,
-             stain: float = 0.12) -> None:
-        """A sail between four corners (tack, clew, peak, throat; the last two may agree), bellied to starboard."""
+             stain: float = 0.12, folds: float = 0.0) -> None:
+        """A sail between four corners (tack, clew, peak, throat; the last two may agree), bellied to starboard.
+
+        folds: height, in metres, of the creases that run from its corners; such a sail has a reef band, too.
+        """
         tack, clew, peak, throat = (np.asarray(c, float) for c in corners)
-        u, v = np.meshgrid(np.linspace(0, 1, 24), np.linspace(0, 1, 30))
+        u, v = np.meshgrid(np.linspace(0, 1, 73 if folds else 24), np.linspace(0, 1, 97 if folds else 30))
         u, v = u[..., None], v[..., None]
         sheet = (1 - v) * ((1 - u) * tack + u * clew) + v * ((1 - u) * throat + u * peak)
         sheet = sheet + np.array([0, -1.0, 0]) * belly * np.sin(np.pi * u) ** 0.8 * np.sin(np.pi * (0.15 + 0.8 * v))
+        if folds:
+            sheet = sheet + np.array([0, folds, 0]) * _creases(u, v)
         faces = _sheet(sheet.shape[:2])
         place = (u * np.ones_like(v)).reshape(-1)[faces].mean(axis=1)
         high = (v * np.ones_like(u)).reshape(-1)[faces].mean(axis=1)
         cloth = 1 - 0.14 * ((place * seams) % 1 < 0.17) - stain * (1 - high) + 0.05 * np.sin(9 * high + 4 * place)
+        if folds:
+            cloth += 0.07 * np.sin(12.9 * np.floor(place * seams) + 1) - 0.16 * (np.abs(high - 0.3) < 0.012)
         self.parts.append(mesh("sail", self.put(sheet.reshape(-1, 3)), faces, material,
                                np.array(tone) * cloth[:, None]))
 
@@ -118,6 +125,16 @@ class Boat:
             faces = _sheet(ball.shape[:2])
             self.parts.append(mesh("person", self.put(points.reshape(-1, 3)), faces, material,
                                    np.tile(tone, (len(faces), 1))))
+
+
+def _creases(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Heights, about -1..1, of the creases a pulled cloth throws at its corners (u, v in 0..1)."""
+    height = np.zeros_like(u * v)
+    for corner_u, corner_v, turns, phase in ((0, 0, 15, 0.4), (1, 0, 13, 2.0), (1, 1, 17, 1.1), (0, 1, 14, 3.0)):
+        away = np.hypot(u - corner_u, v - corner_v)
+        bearing = np.arctan2(np.abs(v - corner_v), np.abs(u - corner_u) + 1e-6)
+        height += np.sin(turns * bearing + phase) * np.exp(-1.8 * away) * np.clip(3 * away, 0, 1)
+    return height + 0.35 * np.sin(2 * np.pi * (2.3 * u + 0.6 * v) + 0.8)
 
 
 def _sheet(shape: tuple[int, int]) -> np.ndarray:

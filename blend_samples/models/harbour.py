@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 
+from .materials import veil
 from .meshes import mesh
 
 
@@ -69,3 +70,42 @@ def tower(name: str, at: tuple, height: float, low: float, high: float, material
     for start, colour in bands:
         tones[share >= start] = colour
     return mesh(name, points, faces, material, tones)
+
+
+def courses(name: str, wall: float, along: tuple, high: tuple, material: bpy.types.Material, tone: tuple,
+            rng: np.random.Generator, course: float = 0.44) -> bpy.types.Object:
+    """The dressed stones of a wall at x = `wall` that faces +X, from along[0] to along[1] and high[0] to high[1]."""
+    points, tones = [], []
+    for low in np.arange(high[0], high[1] - 0.1, course):
+        top = min(low + course, high[1]) - 0.03
+        start = along[0] - rng.uniform(0, 1)
+        while start < along[1]:
+            end = start + rng.uniform(0.7, 1.5)
+            out = wall + rng.uniform(0.01, 0.05)
+            points += [(out, start, low), (out, end - 0.03, low), (out, end - 0.03, top), (out, start, top)]
+            tones.append(np.array(tone) * rng.uniform(0.7, 1.2) * rng.uniform(0.94, 1.06, 3))
+            start = end
+    faces = np.arange(len(points)).reshape(-1, 4)
+    return mesh(name, np.array(points), faces, material, np.array(tones), smooth=False)
+
+
+def halo(name: str, at: tuple, eye: tuple, radius: float, tone: tuple, cover: float) -> bpy.types.Object:
+    """The glow round a lamp, a disc turned to the eye: `cover` (0..1) in its middle, none at its rim."""
+    at = np.asarray(at, float)
+    ahead = np.asarray(eye, float) - at
+    ahead /= np.linalg.norm(ahead)
+    side = np.cross([0, 0, 1], ahead)
+    side /= np.linalg.norm(side)
+    rise = np.cross(ahead, side)
+    rings, sectors = np.linspace(0, 1, 15), 32
+    turn = np.arange(sectors) * 2 * np.pi / sectors
+    circle = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * rise
+    points = at + ahead * 0.4 + radius * (rings[:, None, None] * circle)
+    k, s = np.meshgrid(np.arange(len(rings) - 1), np.arange(sectors), indexing="ij")
+    faces = np.stack([k * sectors + s, k * sectors + (s + 1) % sectors,
+                      (k + 1) * sectors + (s + 1) % sectors, (k + 1) * sectors + s], axis=-1).reshape(-1, 4)
+    fade = cover * (1 - (rings[:-1] + rings[1:]) / 2) ** 2.2
+    tones = np.concatenate([np.tile(tone, (len(faces), 1)), np.repeat(fade, sectors)[:, None]], axis=1)
+    disc = mesh(name, points.reshape(-1, 3), faces, veil(name), tones)
+    disc.visible_shadow = disc.visible_diffuse = False
+    return disc

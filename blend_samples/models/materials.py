@@ -50,6 +50,24 @@ def cloud(name: str, light: tuple, shadow: tuple, shadow_strength: float = 0.35)
     return material
 
 
+def veil(name: str) -> bpy.types.Material:
+    """What hangs in the air and shows its own light: colour and coverage are the mesh's attribute "tone"."""
+    material, tree, shader = _new(name)
+    tree.nodes.remove(shader)
+    material.cycles.emission_sampling = "NONE"
+    tone = tree.nodes.new("ShaderNodeAttribute")
+    tone.attribute_name = "tone"
+    clear = tree.nodes.new("ShaderNodeBsdfTransparent")
+    glow = tree.nodes.new("ShaderNodeEmission")
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(tone.outputs["Color"], glow.inputs["Color"])
+    tree.links.new(tone.outputs["Alpha"], mix.inputs[0])
+    tree.links.new(clear.outputs[0], mix.inputs[1])
+    tree.links.new(glow.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs[0])
+    return material
+
+
 def _new(name: str):
     material = bpy.data.materials.new(name)
     material.use_nodes = True

@@ -6,7 +6,8 @@ import numpy as np
 
 def mesh(name: str, points: np.ndarray, faces: np.ndarray, material: bpy.types.Material,
          tones: np.ndarray | None = None, smooth: bool = True) -> bpy.types.Object:
-    """An object of points (N, 3) and faces (M, corners); tones: a linear colour (M, 3) a face, attribute "tone"."""
+    """An object of points (N, 3) and faces (M, corners); tones: a linear colour (M, 3), or colour and coverage
+    (M, 4), a face: attribute "tone"."""
     data = bpy.data.meshes.new(name)
     corners = faces.shape[1]
     data.vertices.add(len(points))
@@ -20,7 +21,7 @@ def mesh(name: str, points: np.ndarray, faces: np.ndarray, material: bpy.types.M
     data.validate()
     if tones is not None:
         attribute = data.color_attributes.new("tone", "FLOAT_COLOR", "CORNER")
-        rgba = np.concatenate([tones, np.ones((len(tones), 1))], axis=1)
+        rgba = tones if tones.shape[1] == 4 else np.concatenate([tones, np.ones((len(tones), 1))], axis=1)
         attribute.data.foreach_set("color", np.repeat(rgba, corners, axis=0).astype(np.float32).ravel())
     data.materials.append(material)
     thing = bpy.data.objects.new(name, data)

@@ -88,21 +88,26 @@ def horizon() -> list[list[float]]:
     return [[x, round(far[0][1] + slope * (x - far[0][0]), 1)] for x in ends]
 
 
-def sun(azimuth: float, elevation: float, colour: tuple, strength: float, size: float = 2.0) -> None:
-    """Sunlight that comes from azimuth (degrees, 0 = +X, 90 = +Y) and elevation; size: the sun's disc, degrees."""
+def sun(azimuth: float, elevation: float, colour: tuple, strength: float, size: float = 2.0,
+        mirrored: bool = True) -> None:
+    """Sunlight that comes from azimuth (degrees, 0 = +X, 90 = +Y) and elevation; size: the sun's disc, degrees.
+
+    mirrored: its disc shows in what mirrors; a glow of the sky (see `sky`) may stand for it instead.
+    """
     data = bpy.data.lights.new("sun", "SUN")
     data.color, data.energy, data.angle = colour, strength, math.radians(size)
     lamp = bpy.data.objects.new("sun", data)
     a, e = math.radians(azimuth), math.radians(elevation)
     back = Vector((math.cos(a) * math.cos(e), math.sin(a) * math.cos(e), math.sin(e)))
     lamp.rotation_euler = back.to_track_quat("Z", "Y").to_euler()
+    lamp.visible_glossy = mirrored
     bpy.context.scene.collection.objects.link(lamp)
 
 
-def sky(stops: list[tuple[float, tuple]], strength: float = 1.0, glow: tuple | None = None) -> None:
+def sky(stops: list[tuple[float, tuple]], strength: float = 1.0, *glows: tuple) -> None:
     """The world as a gradient over the sine of the elevation (0..1): stops (sine, linear colour).
 
-    glow: (direction, colour, power) adds light around a direction.
+    glows: each (direction, colour, power) adds light around a direction, the tighter the higher its power.
     """
     world = bpy.context.scene.world
     world.use_nodes = True
@@ -119,8 +124,7 @@ def sky(stops: list[tuple[float, tuple]], strength: float = 1.0, glow: tuple | N
     link(where.outputs["Generated"], split.inputs[0])
     link(split.outputs["Z"], ramp.inputs[0])
     colour = ramp.outputs[0]
-    if glow:
-        direction, tint, power = glow
+    for direction, tint, power in glows:
         dot = tree.nodes.new("ShaderNodeVectorMath")
         dot.operation = "DOT_PRODUCT"
         dot.inputs[1].default_value = Vector(direction).normalized()

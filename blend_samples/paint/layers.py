@@ -19,6 +19,13 @@ def crisp(layer: np.ndarray, low: float = 0.12, high: float = 0.88) -> np.ndarra
     return np.concatenate([layer[..., :3] / np.maximum(alpha, 1e-4) * new, new], axis=2)
 
 
+def outlined(layer: np.ndarray, guide: np.ndarray, share: float = 1.0) -> np.ndarray:
+    """The layer with its coverage brought towards the guide's, wholly by share 1: for forms too thin or too soft for
+    a brush's ragged edge."""
+    alpha = layer[..., 3:] + share * (guide[..., 3:] - layer[..., 3:])
+    return np.concatenate([layer[..., :3] / np.maximum(layer[..., 3:], 1e-4) * alpha, alpha], axis=2)
+
+
 def spread_under(layer: np.ndarray) -> np.ndarray:
     """The layer with half-covered marks made whole, for what lies under the edges of others."""
     alpha = layer[..., 3:]
