@@ -1,25 +1,31 @@
 """Boats."""
 
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
 from .. import _stillwater as engine
 from .ripple import Ripple
 from .ripple import water as water_at
+from .wind import Place, Size, Wind
 
 
 def bob(
-    size,
-    frame,
-    waterline,
-    horizon,
+    size: Size,
+    frame: float,
+    waterline: Sequence[Place],
+    horizon: tuple[Place, Place],
     *,
-    water=None,
-    fov=50,
-    height=1.7,
-    wind=None,
-    fps=24,
-    loop=None,
-    amount=1.0,
-    forward=False,
-):
+    water: Ripple | None = None,
+    fov: float = 50,
+    height: float = 1.7,
+    wind: Wind | None = None,
+    fps: float = 24,
+    loop: int | None = None,
+    amount: float = 1.0,
+    forward: bool = False,
+) -> NDArray[np.float32]:
     """Displacement map of a boat: it heaves and rolls, as a whole, with the water under its waterline.
 
     size: (width, height) of the picture, pixels.

@@ -2,11 +2,22 @@
 
 from math import cos, radians
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .. import _stillwater as engine
-from .wind import Wind
+from .wind import Size, Wind
 
 
-def drift(size, frame, *, velocity=None, wind=0.5, under=None, forward=False):
+def drift(
+    size: Size,
+    frame: float,
+    *,
+    velocity: tuple[float, float] | None = None,
+    wind: float = 0.5,
+    under: Wind | None = None,
+    forward: bool = False,
+) -> NDArray[np.float32]:
     """Displacement map of a layer that passes evenly. The map leads outside the picture; the layer is cyclic.
 
     size: (width, height) of the picture, pixels.

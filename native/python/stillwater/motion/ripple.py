@@ -2,8 +2,11 @@
 
 from dataclasses import asdict, dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .. import _stillwater as engine
-from .wind import Wind
+from .wind import Place, Size, Wind
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,18 @@ class Ripple:
     seed: int = 0
 
 
-def water(size, frame, horizon, given, *, fov=50, height=1.7, wind=None, fps=24, loop=None):
+def water(
+    size: Size,
+    frame: float,
+    horizon: tuple[Place, Place],
+    given: Ripple,
+    *,
+    fov: float = 50,
+    height: float = 1.7,
+    wind: Wind | None = None,
+    fps: float = 24,
+    loop: int | None = None,
+) -> engine.Displacement:
     """The engine's displacement of one moment's water; the arguments are those of `ripple`, `given` a Ripple."""
     moment = (wind or Wind()).moment(frame, fps, loop)
     native = engine.Ripple(**asdict(given))
@@ -39,26 +53,26 @@ def water(size, frame, horizon, given, *, fov=50, height=1.7, wind=None, fps=24,
 
 
 def ripple(
-    size,
-    frame,
-    horizon,
+    size: Size,
+    frame: float,
+    horizon: tuple[Place, Place],
     *,
-    fov=50,
-    height=1.7,
-    wind=None,
-    fps=24,
-    loop=None,
-    amplitude=1.0,
-    roughness=1.0,
-    tile=60.0,
-    resolution=256,
-    mode="height",
-    spectrum="phillips",
-    fetch=100.0,
-    depth=200.0,
-    seed=0,
-    forward=False,
-):
+    fov: float = 50,
+    height: float = 1.7,
+    wind: Wind | None = None,
+    fps: float = 24,
+    loop: int | None = None,
+    amplitude: float = 1.0,
+    roughness: float = 1.0,
+    tile: float = 60.0,
+    resolution: int = 256,
+    mode: str = "height",
+    spectrum: str = "phillips",
+    fetch: float = 100.0,
+    depth: float = 200.0,
+    seed: int = 0,
+    forward: bool = False,
+) -> NDArray[np.float32]:
     """Displacement map of a plane of waves, seen in perspective. On and above the horizon nothing moves.
 
     size: (width, height) of the picture, pixels.
@@ -80,17 +94,17 @@ def ripple(
 
 
 def wave_heights(
-    seconds,
+    seconds: float,
     *,
-    tile=60.0,
-    resolution=256,
-    spectrum="phillips",
-    fetch=100.0,
-    depth=200.0,
-    seed=0,
-    wind=None,
-    loop_seconds=None,
-):
+    tile: float = 60.0,
+    resolution: int = 256,
+    spectrum: str = "phillips",
+    fetch: float = 100.0,
+    depth: float = 200.0,
+    seed: int = 0,
+    wind: Wind | None = None,
+    loop_seconds: float | None = None,
+) -> NDArray[np.float32]:
     """The water's heights at a time, amplitude 1, over the periodic tile.
 
     seconds: since frame 1. loop_seconds: period; frequencies are rounded to multiples of its inverse; None = none.

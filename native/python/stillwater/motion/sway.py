@@ -1,26 +1,29 @@
 """Trees, plants, flags."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .. import _stillwater as engine
-from .wind import Wind
+from .wind import Place, Size, Wind
 
 
 def sway(
-    size,
-    frame,
-    armature,
+    size: Size,
+    frame: float,
+    armature: tuple[Place, Place],
     *,
-    wind=None,
-    fps=24,
-    loop=None,
-    frequency=0.6,
-    mass=1.0,
-    damping=0.4,
-    amount=1.0,
-    foreshortening=0.0,
-    shimmer=0.0,
-    seed=0,
-    forward=False,
-):
+    wind: Wind | None = None,
+    fps: float = 24,
+    loop: int | None = None,
+    frequency: float = 0.6,
+    mass: float = 1.0,
+    damping: float = 0.4,
+    amount: float = 1.0,
+    foreshortening: float = 0.0,
+    shimmer: float = 0.0,
+    seed: int = 0,
+    forward: bool = False,
+) -> NDArray[np.float32]:
     """Displacement map of a layer that bends about the root of an armature in the wind.
 
     size: (width, height) of the picture, pixels.

@@ -4,8 +4,12 @@ from dataclasses import dataclass
 from math import cos, radians, sin
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _stillwater as engine
+
+Place = tuple[float, float]  # (x, y), picture pixels
+Size = tuple[int, int]  # (width, height), pixels
 
 
 @dataclass(frozen=True)
@@ -31,7 +35,9 @@ class Wind:
     def __post_init__(self):
         self.moment(1)
 
-    def series(self, seconds, *, seed=0, loop_seconds=None):
+    def series(
+        self, seconds: ArrayLike, *, seed: int = 0, loop_seconds: float | None = None
+    ) -> NDArray[np.float64]:
         """Turbulence at one element: deviation of the wind from its mean along its heading, m/s, float64.
 
         seconds: times, a number or an array; the result has its shape.
@@ -49,7 +55,7 @@ class Wind:
         values = [engine.turbulence(noise, self.moment(1 + t * fps, fps, loop)) for t in seconds.flat]
         return np.array(values).reshape(seconds.shape)
 
-    def gust(self, place, size, frame, *, fps=24, loop=None):
+    def gust(self, place: Place, size: Size, frame: float, *, fps: float = 24, loop: int | None = None) -> float:
         """Local over mean wind speed: never negative, 1 on the whole, 1 everywhere where `gusts` is 0.
 
         place: (x, y), picture pixels. size: (width, height) of the picture, pixels. frame: may be fractional.
@@ -58,7 +64,7 @@ class Wind:
         field = engine.GustField(self.gust_size, self.seed, size)
         return field.factor(place, self.moment(frame, fps, loop))
 
-    def moment(self, frame, fps=24, loop=None):
+    def moment(self, frame: float, fps: float = 24, loop: int | None = None) -> engine.Moment:
         """The engine's numbers of one frame under this wind."""
         velocity = (self.speed * cos(radians(self.direction)), self.speed * sin(radians(self.direction)))
         wind = engine.Wind(
