@@ -205,8 +205,8 @@ def paint_layers(easel: Easel, seen: dict) -> list:
     painted = {
         "sky": easel.paint(seen["sky"], SKY, air, 0, 0.15),
         "clouds": outlined(easel.paint(seen["clouds"], CLOUDS, air, 8, 0.18), seen["clouds"], 0.65),
-        "town": over(easel.paint(seen["glow"], GLOW, air, 0, 0.05),
-                     outlined(easel.paint(seen["town"], TOWN, -tilt, 4, 0.25, sharp=True), seen["town"], 0.5)),
+        "town": over(outlined(easel.paint(seen["glow"], GLOW, air, 0, 0.05), seen["glow"]),
+                     outlined(easel.paint(seen["town"], TOWN, -tilt, 4, 0.25, sharp=True), seen["town"])),
         "water": spread_under(easel.paint(seen["water"], WATER, -tilt, 0, 0.2)),
     }
     for which in ("near", "far"):
