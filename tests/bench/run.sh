@@ -4,4 +4,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/setup/prepare.sh
 prepare_engine || exit 1
+# cv::remap is what the displacement is measured against.
+"$build/venv/bin/python" -c "import cv2" 2>/dev/null ||
+  "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check opencv-python-headless || exit 1
 exec "$build/venv/bin/python" tests/bench/run.py "$@"
