@@ -39,8 +39,9 @@ struct SampledRun {
 bool sample(const Plate& plate, const SharedDisplacement& displacement, const Run& run, const unsigned char* needed,
             cv::Vec4f* out) {
   const bool still = rests(displacement);
-  if (still && plate.scale == plate.output_scale)
-    return plate.source.copy(run.x - static_cast<int>(plate.origin.x), run.y - static_cast<int>(plate.origin.y), run.count, out);
+  const int column = run.x - static_cast<int>(plate.origin.x), row = run.y - static_cast<int>(plate.origin.y);
+  if (still && plate.scale == plate.output_scale && plate.source.holds(column, row, run.count))
+    return plate.source.copy(column, row, run.count, out);
   SampledRun at(plate, still ? nullptr : displacement.get(), run);
   return plate.source.sample(at.x, at.y, needed, run.count, out);
 }

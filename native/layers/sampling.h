@@ -33,7 +33,10 @@ class Source {
   /// `x` and `y` are used up.
   bool sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
 
-  /// The same as sample() for `count` pixels from (x, y) on, at most 4 outside of the image.
+  /// Whether `count` pixels from (x, y) on are all in the image.
+  bool holds(int x, int y, int count) const { return x >= 0 && x + count <= width_ && y >= 0 && y < height_; }
+
+  /// The same as sample() for `count` pixels from (x, y) on, which it holds().
   bool copy(int x, int y, int count, cv::Vec4f* out) const;
 
   /// Pixel (x, y), at most 4 outside of the image: what sample() gives there.
