@@ -52,6 +52,7 @@ class Bed:
     """A scene ready to be rendered: `render(frame)`."""
 
     def __init__(self, scene: Scene):
+        engine.set_threads(0)  # another bench may have asked for one
         self.scene = scene
         shapes = list(_shapes(scene))
         picture = _noise(scene)
