@@ -19,6 +19,12 @@ constexpr int fringe = 3;
 // What a fringe still says where nothing better is near.
 constexpr float fringe_share = 1e-3f;
 
+// A matte goes on behind what hides it where it is likely; what is left of it further away fades out.
+float without_tail(float likely) {
+  constexpr float unlikely = 0.25f;
+  return likely < 2 * unlikely ? std::max(0.0f, 2 * (likely - unlikely)) : likely;
+}
+
 template <class Work>
 void each_pixel(const cv::Size& size, const Work& work) {
   parallel_rows(size.height, grain, [&](int first, int last) {
@@ -72,7 +78,7 @@ void complete(Plane& matte, const Plane& hidden) {
   each_pixel(part.size(), [&](int y, int x) { seen(y, x) = cv::Vec4f::all(part(y, x)); });
   const Rgba whole = filled(seen, [&](int y, int x) { return purity(cover(y, x)); });
   each_pixel(part.size(), [&](int y, int x) {
-    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), whole(y, x)[0]), 0.0f, 1.0f);
+    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(whole(y, x)[0])), 0.0f, 1.0f);
   });
 }
 

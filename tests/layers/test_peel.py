@@ -108,6 +108,13 @@ def test_a_matte_goes_on_behind_what_hides_it():
     assert np.all(hidden[:19] == 0)
 
 
+def test_a_matte_goes_on_only_near_what_is_seen_of_it():
+    """A small thing beside a wide curtain does not spread behind all of it."""
+    curtain, thing = box_matte(0, 48, 20, 64), box_matte(20, 28, 10, 20)
+    layer = peel(picture(), [curtain, thing, None])[1]
+    assert layer.box[0] + layer.box[2] < 44
+
+
 def test_a_layer_is_kept_in_its_box_only():
     layer = peel(picture(), [box_matte(10, 20, 30, 44), None])[0]
     assert layer.box == [28, 8, 18, 14]
