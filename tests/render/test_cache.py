@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import pytest
+from stillwater.render import cache as cache_module
 from stillwater.render.cache import Cache, Prepared
 
 
@@ -33,8 +34,8 @@ def test_what_is_kept_is_found_again_mapped(cache):
 
 def test_no_half_written_preparation_is_ever_seen(cache, monkeypatch):
     seen = []
-    whole = np.save
-    monkeypatch.setattr(np, "save", lambda *a, **k: (seen.append(Cache(cache.folder).find("key")), whole(*a, **k)))
+    whole = cache_module._write_array
+    monkeypatch.setattr(cache_module, "_write_array", lambda *a: (seen.append(Cache(cache.folder).find("key")), whole(*a)))
     cache.store("key", something())
     assert seen == [None, None] and [path.name for path in cache.folder.iterdir()] == ["key"]
 

@@ -64,7 +64,7 @@ class Cache:
         try:
             aside.mkdir(parents=True)
             for name, array in prepared.arrays.items():
-                np.save(aside / f"{name}.npy", np.ascontiguousarray(array))
+                _write_array(aside / f"{name}.npy", np.ascontiguousarray(array))
             (aside / "meta.json").write_text(json.dumps({**prepared.facts, "arrays": len(prepared.arrays)}))
             shutil.rmtree(self.folder / key, ignore_errors=True)
             os.rename(aside, self.folder / key)
@@ -151,6 +151,13 @@ class Cache:
         except (OSError, ValueError):
             return {}
         return digests if isinstance(digests, dict) else {}
+
+
+def _write_array(path: Path, array: np.ndarray) -> None:
+    """An .npy file. np.save would not tell why a disk took only a part of it."""
+    with open(path, "wb") as file:
+        np.lib.format.write_array_header_1_0(file, np.lib.format.header_data_from_array_1_0(array))
+        file.write(array.data)
 
 
 def _size(place: Path) -> int:
