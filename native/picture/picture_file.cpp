@@ -23,20 +23,25 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
 
   const char* proxytype() const override { return "stillwater"; }
 
-  // Buffered bytes may fail wherever they leave the buffer: at a write, a seek, a flush or the end.
+  // Buffered bytes may fail wherever they leave the buffer: at a write, a seek or the end. tell() and flush() are the
+  // base's, since OpenImageIO 2 and 3 declare them differently: tell() gives m_pos, flush() leaves all to the end.
   void close() override {
     if (file_) note(std::fclose(file_) == 0);
     file_ = nullptr;
   }
 
-  bool seek(int64_t offset) override { return note(OIIO::Filesystem::fseek(file_, offset, SEEK_SET) == 0); }
-  int64_t tell() override { return OIIO::Filesystem::ftell(file_); }
+  bool seek(int64_t offset) override {
+    if (!note(OIIO::Filesystem::fseek(file_, offset, SEEK_SET) == 0)) return false;
+    m_pos = offset;
+    return true;
+  }
 
   /// For writing only, as OpenImageIO's own files are.
   std::size_t read(void*, std::size_t) override { return 0; }
   std::size_t write(const void* buffer, std::size_t size) override {
     const std::size_t written = std::fwrite(buffer, 1, size, file_);
     note(written == size);
+    m_pos += static_cast<int64_t>(written);
     return written;
   }
 
@@ -47,7 +52,6 @@ class CheckedFile : public OIIO::Filesystem::IOProxy {
     note(OIIO::Filesystem::fseek(file_, here, SEEK_SET) == 0);
     return static_cast<std::size_t>(end);
   }
-  void flush() const override { note(std::fflush(file_) == 0); }
 
   /// 0 where all went well.
   int failure() const { return failure_; }
