@@ -32,8 +32,12 @@ class STILLWATER_OT_add_node(bpy.types.Operator):
         return {"FINISHED"}
 
     def invoke(self, context, event):
+        if context.space_data is not None and context.space_data.type == "NODE_EDITOR":
+            context.space_data.cursor_location_from_region(event.mouse_region_x, event.mouse_region_y)
         result = self.execute(context)
-        bpy.ops.node.translate_attach_remove_on_cancel("INVOKE_DEFAULT")
+        # An editor that had no tree before shows the new one after its next redraw only: nothing to drag in yet.
+        if bpy.ops.node.translate_attach_remove_on_cancel.poll():
+            bpy.ops.node.translate_attach_remove_on_cancel("INVOKE_DEFAULT")
         return result
 
 
