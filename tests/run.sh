@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The one test command. On a bare Debian 12 or 13 it installs, builds and runs everything.
 #
-#   bash tests/run.sh             all rooms, in both Blenders
+#   bash tests/run.sh             all rooms, in both Blenders, and in one with a window
 #   bash tests/run.sh setup       stops after the build
-#   bash tests/run.sh NAME...     rooms (motion, frame, blender, ...) or files
+#   bash tests/run.sh NAME...     rooms (motion, frame, blender, gui, ...) or files
 #   bash tests/run.sh sanitize    the engine's tests under the address and undefined-behaviour sanitizers
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

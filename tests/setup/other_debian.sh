@@ -7,19 +7,13 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/setup/prepare.sh
+source tests/setup/debian_folder.sh
 report="$1"
-
-leave_out() {
-  cat >"$report" <<XML
-<testsuites><testsuite><testcase name="other Blender"><skipped message="$1"/></testcase></testsuite></testsuites>
-XML
-  exit 0
-}
 
 case "$("$system_python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')" in
   3.11) other_python=3.13 other_debian=trixie ;;
   3.13) other_python=3.11 other_debian=bookworm ;;
-  *) leave_out "this machine's Python is neither 3.11 nor 3.13" ;;
+  *) leave_out "other Blender" "this machine's Python is neither 3.11 nor 3.13" ;;
 esac
 
 # The first Python of the other version that can make environments and build modules.
@@ -38,37 +32,5 @@ if [ "${STILLWATER_OTHER:-}" != folder ] && python="$(find_python)"; then
   exec env PYTHON="$python" STILLWATER_BUILD="$build/python-$other_python" bash tests/setup/blender.sh "$report"
 fi
 
-[ "$(id -u)" = 0 ] || leave_out "a folder of the other Debian is made by root only"
-install_packages mmdebstrap || leave_out "mmdebstrap can't be installed"
-
-folder="$build/debian-$other_debian"
-if once "debian-$other_debian" made; then
-  echo "making a folder of Debian $other_debian"
-  rm -rf --one-file-system "$folder"
-  mmdebstrap --quiet --variant=apt --include=ca-certificates "$other_debian" "$folder" ||
-    leave_out "no folder of Debian $other_debian can be made here"
-  done_once "debian-$other_debian" made
-fi
-# pip in there trusts what this machine trusts.
-cp /etc/ssl/certs/ca-certificates.crt "$folder/etc/ssl/certs/ca-certificates.crt"
-cp /etc/resolv.conf "$folder/etc/resolv.conf"
-
-inside() {
-  # A mount namespace of its own: what is mounted here is gone with the process, whatever happens.
-  unshare --mount --propagation private bash -c '
-    set -e
-    folder="$1"; repository="$2"; build="$3"; shift 3
-    mount -t proc proc "$folder/proc" || mount --bind /proc "$folder/proc"
-    mount --rbind /dev "$folder/dev"
-    mkdir -p "$folder/stillwater" "$folder/build"
-    mount --bind "$repository" "$folder/stillwater"
-    mount -o remount,bind,ro "$folder/stillwater"
-    exec chroot "$folder" env -u PYTHON HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin STILLWATER_BUILD=/build "$@"
-  ' inside "$folder" "$repository" "$build" "$@"
-}
-
-inside true || leave_out "a folder of Debian $other_debian can't be entered here"
-inside bash /stillwater/tests/setup/blender.sh /build/report.xml
-code=$?
-cp "$folder/build/report.xml" "$report" 2>/dev/null
-exit $code
+make_folder "$other_debian" "other Blender"
+test_inside blender.sh

@@ -32,10 +32,12 @@ venv() {
   done_once "$stamp" "$wanted"
 }
 
+# Builds the engine's wheel and installs it. `prepare_engine wheel` stops at the wheel, and asks for no more than that.
 prepare_engine() {
+  local wanted="scikit-build-core pybind11"
+  [ "${1:-}" = wheel ] || wanted="numpy msgspec tqdm $wanted pytest pytest-timeout hypothesis scipy pillow"
   install_packages $build_packages $run_packages || return 1
-  venv "$build/venv" numpy msgspec tqdm scikit-build-core pybind11 pytest pytest-timeout hypothesis scipy pillow ||
-    return 1
+  venv "$build/venv" $wanted || return 1
   local state
   state="$(state_of native CMakeLists.txt)"
   once engine "$state" || return 0
@@ -46,8 +48,9 @@ prepare_engine() {
     --no-build-isolation --no-deps --wheel-dir "$build/wheels" \
     --config-settings=build-dir="$build/engine" --config-settings=cmake.define.STILLWATER_WERROR="${CI:+ON}" ||
     return 1
-  "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
-    "$build"/wheels/stillwater-*.whl || return 1
+  [ "${1:-}" = wheel ] ||
+    "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
+      "$build"/wheels/stillwater-*.whl || return 1
   done_once engine "$state"
 }
 
@@ -65,9 +68,11 @@ prepare_blender() {
   venv "$build/blender-venv" "bpy==$blender_version.*" numpy "$@"
 }
 
-# The extension's zip, with the engine's wheel and those it needs. Leaves its path in $extension_zip.
+# The extension's zip, with the engine's wheel and those it needs, built by the bpy package or, where it is named, by a
+# Blender program. Leaves its path in $extension_zip.
 prepare_extension() {
-  local state
+  local state python="$build/blender-venv/bin/python" options=()
+  [ $# = 0 ] || python="$build/venv/bin/python" options=(--blender "$1")
   state="$(state_of addon native CMakeLists.txt)"
   if once extension "$state"; then
     echo "building the extension"
@@ -75,7 +80,7 @@ prepare_extension() {
     "$build/venv/bin/python" -m pip download --quiet --disable-pip-version-check --only-binary :all: --no-deps \
       --dest "$build/wheels" msgspec tqdm || return 1
     rm -f "$build"/stillwater-*.zip
-    "$build/blender-venv/bin/python" "$repository/addon/build_zip.py" --wheels "$build/wheels" --output "$build" || return 1
+    "$python" "$repository/addon/build_zip.py" --wheels "$build/wheels" --output "$build" "${options[@]}" || return 1
     done_once extension "$state"
   fi
   extension_zip="$(ls "$build"/stillwater-*.zip)"

@@ -1,7 +1,8 @@
 """Runs the rooms of tests/ one after the other and closes with a table: what each took, and what was left out.
 
 Called by tests/run.sh. A room is a folder of tests/ with test files in it. `blender` runs in the Blender that fits
-this machine's Python; `other-blender` runs the same in a folder of the other Debian.
+this machine's Python; `other-blender` runs the same in a folder of the other Debian; `gui` runs in a Blender that shows
+a window, in a folder of Debian sid.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 TESTS = REPOSITORY / "tests"
-BLENDER_ROOMS = ("blender", "other-blender")
+BLENDER_ROOMS = {"blender": "blender.sh", "other-blender": "other_debian.sh", "gui": "gui.sh"}  # each with its script
 ROOM_LIMIT = 1500  # seconds
 TEST_LIMIT = 120  # seconds, one test
 
@@ -37,7 +38,7 @@ class Outcome:
 def rooms() -> list[str]:
     """Every folder of tests/ that holds test files, in the engine's order as far as it has one."""
     order = ["structure", "core", "picture", "layers", "motion", "frame", "recipe", "render", "cli", "fuzz", "golden"]
-    found = {path.parent.relative_to(TESTS).parts[0] for path in TESTS.rglob("test_*.py")} - {"blender"}
+    found = {path.parent.relative_to(TESTS).parts[0] for path in TESTS.rglob("test_*.py")} - BLENDER_ROOMS.keys()
     return sorted(found, key=lambda room: (order.index(room) if room in order else len(order), room))
 
 
@@ -84,12 +85,12 @@ def run_engine_room(build: Path, room: str, files: list[str]) -> Outcome:
     return outcome
 
 
-def run_blender_room(build: Path, room: str) -> Outcome:
-    """The extension's tests: here, or in a folder of the other Debian."""
+def run_blender_room(build: Path, room: str, files: list[str]) -> Outcome:
+    """The extension's tests: here, or in a folder of another Debian."""
     outcome = Outcome(room)
     report = build / "reports" / f"{room}.xml"
-    script = "blender.sh" if room == "blender" else "other_debian.sh"
-    run(outcome, ["bash", f"tests/setup/{script}", str(report)], report, {**os.environ, "STILLWATER_BUILD": str(build)})
+    command = ["bash", f"tests/setup/{BLENDER_ROOMS[room]}", str(report), *files]
+    run(outcome, command, report, {**os.environ, "STILLWATER_BUILD": str(build)})
     return outcome
 
 
@@ -103,7 +104,8 @@ def chosen(names: list[str]) -> dict[str, list[str]]:
         if name in known:
             picked.setdefault(name, [])
         elif (path := Path(name)).exists() and TESTS in path.resolve().parents:
-            picked.setdefault(path.resolve().relative_to(TESTS).parts[0], []).append(name)
+            file = path.resolve()
+            picked.setdefault(file.relative_to(TESTS).parts[0], []).append(str(file.relative_to(REPOSITORY)))
         else:
             sys.exit(f"{name}: neither a file under tests/ nor a room ({', '.join(known)})")
     return picked
@@ -118,10 +120,8 @@ def main() -> int:
     outcomes = []
     for room, files in chosen(arguments.names).items():
         print(f"\n== {room}", flush=True)
-        blender = room in BLENDER_ROOMS
-        outcomes.append(
-            run_blender_room(arguments.build, room) if blender else run_engine_room(arguments.build, room, files)
-        )
+        run_room = run_blender_room if room in BLENDER_ROOMS else run_engine_room
+        outcomes.append(run_room(arguments.build, room, files))
 
     print(f"\n{'room':<16}{'seconds':>9}{'passed':>9}{'failed':>9}{'left out':>10}")
     for o in outcomes:

@@ -1,0 +1,205 @@
+"""Blender's window as a person has it: looked at through screenshots, worked with mouse and keys.
+
+Whatever takes time is a generator: `yield from window.click("Bake")`. A `yield` lets Blender handle its events and draw
+once; `yield 0.2` lets it run for that many seconds. Places are in Blender's pixels, from the window's lower left corner.
+"""
+
+import subprocess
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import bpy
+import lettering
+import numpy as np
+
+PATIENCE = 20  # s: until something has to show
+SETTLED = 4  # redraws after which an input has had its effect
+
+KEYS = dict(zip("0123456789", "ZERO ONE TWO THREE FOUR FIVE SIX SEVEN EIGHT NINE".split()))
+KEYS |= {".": "PERIOD", ",": "COMMA", "-": "MINUS", "/": "SLASH", " ": "SPACE", "_": "MINUS"}
+
+
+class Box(NamedTuple):
+    """A rectangle of the window."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+    @property
+    def middle(self) -> tuple[int, int]:
+        return self.x + self.width // 2, self.y + self.height // 2
+
+
+class Window:
+    def __init__(self, screens: Path):
+        """`screens` is the folder that screenshots go to."""
+        self._screens = screens
+        self._mouse = (0, 0)
+        bpy.context.preferences.view.show_tooltips = False  # they would come and go with the machine's speed
+
+    @property
+    def _window(self):
+        return bpy.context.window_manager.windows[0]
+
+    # -- looking
+
+    def pixels(self, box: Box | None = None) -> np.ndarray:
+        """What the screen shows now: H x W x 3, 0..255, rows top to bottom."""
+        size = self._window.height, self._window.width
+        raw = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], capture_output=True, timeout=30)
+        shown = np.frombuffer(raw.stdout, np.uint8).reshape(*size, 3)
+        if box is None:
+            return shown
+        return shown[size[0] - box.y - box.height : size[0] - box.y, box.x : box.x + box.width]
+
+    def screenshot(self, name: str):
+        """Leaves NAME.png among the screens."""
+        yield from self.settle()
+        path = self._screens / f"{name}.png"
+        subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30)
+
+    def area(self, kind: str):
+        """The largest editor of a kind, as Blender names it ("VIEW_3D")."""
+        areas = [area for area in self._window.screen.areas if area.type == kind]
+        assert areas, f"no {kind} among {[area.type for area in self._window.screen.areas]}"
+        return max(areas, key=lambda area: area.width * area.height)
+
+    def box(self, kind: str, region: str = "WINDOW") -> Box:
+        """Where a region of an editor is ("UI" is its sidebar)."""
+        found = next(r for r in self.area(kind).regions if r.type == region)
+        return Box(found.x, found.y, found.width, found.height)
+
+    def places(self, text: str, inside: Box | None = None, turned: bool = False) -> list[tuple[int, int]]:
+        """The middles of all places where `text` is to be read, best first; `turned` as on a sidebar's tabs."""
+        inside = inside or Box(0, 0, self._window.width, self._window.height)
+        word = lettering.drawn(text)
+        found = lettering.places(self.pixels(inside).mean(2), np.rot90(word, -1) if turned else word)
+        return [(inside.x + x, inside.y + inside.height - 1 - y) for x, y in found]
+
+    def see(self, text: str, inside: Box | None = None, turned: bool = False, lowest: bool = False):
+        """Waits until `text` is to be read in just one place, and returns that; the `lowest` place where there are more."""
+        found = []
+
+        def unmistakable():
+            found[:] = sorted(self.places(text, inside, turned), key=lambda place: place[1])
+            return len(found) == 1 or (found and lowest)
+
+        yield from self.until(unmistakable, PATIENCE, lambda: f"“{text}” is to be read in {len(found)} places: {found}")
+        return found[0]
+
+    def is_to_read(self, text: str, inside: Box | None = None) -> bool:
+        """Whether `text` is on the screen now."""
+        return bool(self.places(text, inside))
+
+    def until(self, condition, seconds: float, otherwise):
+        """Lets Blender run until `condition()`; fails with the sentence `otherwise` (or what it returns) after `seconds`."""
+        start = time.monotonic()
+        yield from self.settle()
+        while not condition():
+            late = time.monotonic() - start > seconds
+            assert not late, f"after {seconds} s: {otherwise() if callable(otherwise) else otherwise}"
+            yield 0.1
+
+    def settle(self):
+        """Lets Blender handle what came in, and draw."""
+        for _ in range(SETTLED):
+            yield
+
+    # -- mouse
+
+    def move(self, place: tuple[int, int]):
+        self._mouse = place
+        self._send("MOUSEMOVE", "NOTHING")
+        yield
+
+    def press(self, button: str = "LEFTMOUSE", **held: bool):
+        self._send(button, "PRESS", **held)
+        yield
+        self._send(button, "RELEASE", **held)
+        yield from self.settle()
+
+    def click(self, what, inside: Box | None = None, beside: int = 0, ctrl: bool = False, **which: bool):
+        """Clicks on a place, or on a text (see()), or `beside` pixels to the right of its middle."""
+        place = what if isinstance(what, tuple) else (yield from self.see(what, inside, **which))
+        yield from self.move((place[0] + beside, place[1]))
+        yield  # what is under the mouse becomes active before it is pressed
+        yield from self.press(ctrl=ctrl)
+
+    def drag(self, points: list[tuple[int, int]], steps: int = 30):
+        """Draws with the left button held down, in straight lines from point to point."""
+        yield from self.move(points[0])
+        self._send("LEFTMOUSE", "PRESS")
+        yield
+        for start, end in zip(points, points[1:]):
+            for step in np.linspace(0, 1, steps + 1)[1:]:
+                yield from self.move(tuple(round(a + (b - a) * step) for a, b in zip(start, end)))
+        self._send("LEFTMOUSE", "RELEASE")
+        yield from self.settle()
+
+    def choose(self, field: str, item: str, inside: Box, beside: int):
+        """Opens the menu `beside` the label of a field, and clicks on one of its items."""
+        yield from self.click(field, inside, beside=beside)
+        yield from self.click(item, inside=self.box("VIEW_3D"), lowest=True)
+
+    def click_button(self, operator: str, near: tuple[int, int], reach: int = 120):
+        """Clicks on a button that has no text: looks above and below a place until `operator` is under the mouse.
+
+        `operator` is how its call begins in Python: `bpy.ops.stillwater.layer(action='add'`.
+        """
+        met = set()
+        for distance in range(0, reach, 8):
+            for y in {near[1] - distance, near[1] + distance}:
+                yield from self.move((near[0], y))
+                yield
+                command = self._under_mouse()
+                if command.startswith(operator):
+                    yield from self.press()
+                    return
+                met.add(command)
+        raise AssertionError(f"{operator} is not near {near}, but {sorted(met)}")
+
+    def _under_mouse(self) -> str:
+        """The call of the button under the mouse; empty where there is none that calls an operator."""
+        for area in self._window.screen.areas:
+            for region in area.regions:  # a sidebar lies over the main region
+                x, y = self._mouse[0] - region.x, self._mouse[1] - region.y
+                if 0 <= x < region.width and 0 <= y < region.height and region.type != "WINDOW":
+                    with bpy.context.temp_override(window=self._window, area=area, region=region):
+                        if not bpy.ops.ui.copy_python_command_button.poll():
+                            return ""
+                        bpy.ops.ui.copy_python_command_button()
+                    return bpy.context.window_manager.clipboard
+        return ""
+
+    # -- keys
+
+    def key(self, name: str, at: tuple[int, int] | None = None, **held: bool):
+        """Presses a key, as Blender names it, with `ctrl=True` and others held down; `at` moves the mouse first."""
+        if at:
+            yield from self.move(at)
+        self._send(name, "PRESS", **held)
+        yield
+        self._send(name, "RELEASE", **held)
+        yield from self.settle()
+
+    def type(self, text: str):
+        """Types into the field that takes letters now."""
+        for letter in text:
+            key = KEYS.get(letter, letter.upper())
+            self._send(key, "PRESS", unicode=letter, shift=letter.isupper() or letter == "_")
+            self._send(key, "RELEASE")
+        yield from self.settle()
+
+    def fill(self, what, text: str, inside: Box | None = None, beside: int = 0, **how: bool):
+        """Puts `text` into the field at a place, or beside its label; ends with Enter. A list's names open by `ctrl`."""
+        yield from self.click(what, inside, beside, **how)
+        yield from self.key("A", ctrl=True)
+        yield from self.type(text)
+        yield from self.key("RET")
+
+    def _send(self, kind: str, value: str, **more):
+        x, y = self._mouse
+        self._window.event_simulate(kind, value, x=x, y=y, **more)
