@@ -22,7 +22,7 @@ def panel(extension):
 @pytest.mark.parametrize("editor", ["view_3d", "node_editor"])
 def test_an_empty_scene_offers_a_picture(scene, panel, editor):
     shown = panel(editor)
-    assert shown["operators"] == ["stillwater.add_picture", "stillwater.load_recipe"]
+    assert shown["operators"] == ["stillwater.open_picture", "stillwater.load_recipe"]
     assert shown["texts"][0].startswith("Engine ")
 
 
@@ -34,7 +34,7 @@ def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, t
 
 def test_panels_stand_in_the_order_of_the_work(scene):
     labels = [cls.bl_label for cls in registered("view_3d")]
-    assert labels == ["Stillwater", "Layers", "Wind", "View", "Bake", "Output"]
+    assert labels == ["Stillwater", "Picture", "Layers", "Wind", "View", "Bake", "Output"]
 
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])
@@ -92,10 +92,3 @@ def test_the_list_of_layers_is_changed_by_its_buttons(scene, picture):
         bpy.ops.stillwater.layer(action=action)
         assert [layer.name for layer in picture.layers] == names, action
         assert picture.active_layer == 0 or picture.active_layer < len(names)
-
-
-def test_a_new_picture_has_a_background(scene):
-    bpy.ops.stillwater.add_picture()
-    assert [layer.name for layer in scene.stillwater.active().layers] == ["Background"]
-    bpy.ops.stillwater.remove_picture()
-    assert scene.stillwater.active() is None and not bpy.ops.stillwater.remove_picture.poll()
