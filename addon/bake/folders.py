@@ -40,7 +40,7 @@ def known_folder(root: Path, identifier: str) -> Path | None:
 
 
 def forget(root: Path, identifier: str) -> None:
-    """The picture's folder is nobody's any more. Leaves no empty folder behind. Throws OSError."""
+    """The picture has no folder any more. Leaves no empty folder behind. Throws OSError."""
     left = {key: name for key, name in _read(root).items() if key != identifier}
     if left:
         _write(root, left)
@@ -67,6 +67,7 @@ class Files:
     folder: Path
     frames: Path
     name: str
+    identifier: str  # the picture's
 
     def found(self) -> list[Path]:
         """Every file and folder of these; nothing that somebody else put there."""
@@ -82,6 +83,8 @@ class Files:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
         for folder in (self.frames, self.folder):
             _remove_empty(folder)
+        if not self.folder.exists():
+            forget(self.folder.parent, self.identifier)
         return len(found)
 
 

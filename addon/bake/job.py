@@ -11,6 +11,7 @@ import bpy
 
 from .. import engine, preferences, versions
 from ..compositor import tree as node
+from ..properties import image
 from ..recipe.animation import Animation
 from ..recipe.write import frames_to_sample, recipe_of
 from . import places
@@ -48,6 +49,8 @@ def start(scene, picture, fresh: bool = False):
     tree = node.claim(scene, picture)
     if tree.session_uid in _jobs:
         raise ValueError(f"{picture.name}: is being baked already")
+    image.take_path(picture)
+    image.check_size(picture)
     command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent"]
     command += chosen.worker_options()
     command += ["--fresh"] if fresh else []

@@ -34,7 +34,7 @@ def files_of(picture) -> folders.Files | None:
     folder = root / picture.id if not bpy.data.filepath else folders.known_folder(root, picture.id)
     if folder is None or not folder.is_dir():
         return None
-    files = folders.Files(folder, folder / picture.output.folder, picture.output.name)
+    files = folders.Files(folder, folder / picture.output.folder, picture.output.name, picture.id)
     return files if files.found() else None
 
 

@@ -93,7 +93,7 @@ class _Made:
                    if self.collection.name in tree.children]  # fmt: skip
         for parent in parents:
             parent.children.unlink(self.collection)
-            for kind in ("objects", "children"):
+            for kind in ("objects", "children") if self.collection_is_ours else ():
                 for item in getattr(self.collection, kind):
                     if item.name not in getattr(parent, kind):
                         getattr(parent, kind).link(item)
@@ -119,7 +119,7 @@ def _actions(datablock) -> list:
 
 def _purge(collection, things: list) -> None:
     """Removes those that nothing uses any more."""
-    for thing in things:
+    for thing in dict.fromkeys(things):  # an object and its data may share an action
         if thing is not None and thing.users == 0:
             collection.remove(thing)
 

@@ -4,6 +4,7 @@ Places keep their place over the picture, lengths and speeds their share of it; 
 """
 
 from .. import versions
+from ..properties.walk import every
 from . import place
 from . import scene as settings
 
@@ -22,28 +23,15 @@ def resize(scene, picture, new: tuple[int, int]) -> bool:
         settings.use_size(scene, picture)
     place.stretch_strokes(picture, old)
     factors = new[0] / old[0], new[1] / old[1]
-    for group, name in _measured(picture):
-        _scale(scene, group, name, factors)
+    for group, kind in every(picture):
+        if _is_measured(group, kind):
+            _scale(scene, group, kind.identifier, factors)
     return True
 
 
-def _measured(picture):
-    """Every property below `picture` that is measured in its pixels, told by the unit in its description."""
-    yield from _below(picture.view)
-    for layer in picture.layers:
-        yield from _below(layer)
-
-
-def _below(group):
-    for kind in group.bl_rna.properties:
-        name = kind.identifier
-        if kind.type == "FLOAT" and "[px" in kind.description and group.is_property_set(name):
-            yield group, name
-        elif kind.type == "POINTER" and hasattr(getattr(group, name), "path_from_id") and name != "rna_type":
-            yield from _below(getattr(group, name))
-        elif kind.type == "COLLECTION":
-            for item in getattr(group, name):
-                yield from _below(item)
+def _is_measured(group, kind) -> bool:
+    """Whether it was set to something that is measured in the picture's pixels, as its description says."""
+    return kind.type == "FLOAT" and "[px" in kind.description and group.is_property_set(kind.identifier)
 
 
 def _scale(scene, group, name: str, factors: tuple[float, float]) -> None:

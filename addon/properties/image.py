@@ -44,6 +44,19 @@ def load(path: str):
     raise ValueError(f"{name}: {problem}")
 
 
+def check_size(picture) -> None:
+    """Throws ValueError where the picture's file is missing, or came to be of another size than the picture has."""
+    if picture.image is None:
+        return
+    fresh, size = load(bpy.path.abspath(picture.picture))
+    bpy.data.images.remove(fresh)
+    if size != tuple(picture.picture_size):
+        old = picture.picture_size
+        raise ValueError(
+            f"{picture.name}: its file has {size[0]} x {size[1]} pixels now, not {old[0]} x {old[1]}: use Reload Picture"
+        )
+
+
 def stored(path: str) -> str:
     """A path as the .blend keeps it: relative where the .blend is saved, on the same drive."""
     absolute = os.path.abspath(bpy.path.abspath(path))

@@ -3,20 +3,14 @@
 import os
 from collections.abc import Iterator
 
-import bpy
+from .walk import every
 
 
 def each(group) -> Iterator[tuple]:
     """Every path below a property group, as (its group, its name)."""
-    for kind in group.bl_rna.properties:
-        name = kind.identifier
+    for owner, kind in every(group):
         if kind.type == "STRING" and kind.subtype in {"FILE_PATH", "DIR_PATH"}:
-            yield group, name
-        elif kind.type == "POINTER" and isinstance(getattr(group, name), bpy.types.PropertyGroup):
-            yield from each(getattr(group, name))
-        elif kind.type == "COLLECTION":
-            for item in getattr(group, name):
-                yield from each(item)
+            yield owner, kind.identifier
 
 
 def rebase(group, old: str, new: str) -> None:

@@ -34,5 +34,6 @@ def rendered(scene, path: Path) -> np.ndarray:
         settings.media_type = "IMAGE"
     settings.file_format, settings.color_depth = "OPEN_EXR", "32"
     scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    bpy.context.window.scene = scene
+    bpy.ops.render.render(write_still=True)
     return oiio.ImageBuf(str(path)).get_pixels("float")[..., :3]
