@@ -5,9 +5,11 @@ import os
 import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import bpy
 import pytest
+from panels import Recorder
 from pictures import paint
 from pixels import PACKAGE
 
@@ -102,13 +104,9 @@ def test_a_bake_with_a_wrong_python_says_so(chosen, scene, wrong, tmp_path):
 
 
 def test_they_are_drawn(chosen, wrong):
-    from panels import Recorder
-
-    class Layout(Recorder):
-        use_property_split, alignment = False, ""
-
     chosen.python = str(wrong / "none")
-    layout = Layout()
-    type(chosen).draw(type("Drawn", (), {"layout": layout, **{n: getattr(chosen, n) for n in dir(chosen) if n in type(chosen).__annotations__}})(), bpy.context)
+    shown = {name: getattr(chosen, name) for name in type(chosen).__annotations__}
+    layout = Recorder()
+    type(chosen).draw(SimpleNamespace(layout=layout, **shown), bpy.context)
     assert {"cache_folder", "cache_limit", "threads", "preview_size", "python", "stale_render"} <= set(layout.properties)
     assert layout.operators == ["stillwater.try_python"] and "can't be started" in " ".join(layout.texts)
