@@ -1,20 +1,22 @@
 """A picture's place in the scene: its plane, the camera that sees just the plane, the drawing for its strokes.
 
-The plane stands upright (front view), its middle at its origin, the longer side SIDE metres. Camera and drawing hang on
-it: where it goes, they go. All three lie in a collection of their own.
+The plane stands upright (front view), its middle at its origin, the longer side SIDE metres: at the scene's origin, or
+behind what stands there. Camera and drawing hang on it: where it goes, they go. All three lie in a collection of their
+own.
 """
 
 from math import radians
 
 import bpy
 from bpy.app.translations import pgettext_data as data_
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from .. import versions
 
 SIDE = 10.0  # m: the longer side of a picture
 GAP = 1.0  # m: between the planes of two pictures
 DISTANCE = 10.0  # m: of the camera from the plane
+SOLID = {"MESH", "CURVE", "CURVES", "SURFACE", "META", "FONT", "GREASEPENCIL", "POINTCLOUD", "VOLUME"}
 
 
 def ensure(scene, picture) -> None:
@@ -80,10 +82,24 @@ def _plane(scene, picture):
     plane.empty_image_depth = "BACK"  # strokes lie over it from wherever it is seen
     plane.empty_image_side = "DOUBLE_SIDED"
     plane.hide_select = True  # a click means a stroke
-    others = [other.plane.location.x for other in scene.stillwater.pictures if other.plane not in (None, plane)]
-    x = max(others) + SIDE + GAP if others else 0
-    plane.matrix_world = Matrix.Translation((x, 0, 0)) @ Matrix.Rotation(radians(90), 4, "X")
+    others = [other.plane for other in scene.stillwater.pictures if other.plane not in (None, plane)]
+    x = max(other.location.x for other in others) + SIDE + GAP if others else 0
+    y = others[0].location.y if others else _free_depth(scene)
+    plane.matrix_world = Matrix.Translation((x, y, 0)) @ Matrix.Rotation(radians(90), 4, "X")
     return plane
+
+
+def _free_depth(scene) -> float:
+    """How far back the plane stands, so that nothing of the artist's lies between it and its camera."""
+    shown = [item for item in scene.objects if item.type in SOLID and not item.hide_get()]
+    corners = [[item.matrix_world @ Vector(corner) for corner in item.bound_box] for item in shown]
+    in_sight = [
+        max(corner.y for corner in box)
+        for box in corners
+        if min(corner.y for corner in box) <= 0 <= max(corner.y for corner in box) + DISTANCE
+        and all(min(corner[i] for corner in box) < SIDE / 2 and max(corner[i] for corner in box) > -SIDE / 2 for i in (0, 2))
+    ]
+    return max(max(corner.y for box in corners for corner in box), 0) + DISTANCE + GAP if in_sight else 0.0
 
 
 def _hung(picture, item):

@@ -105,13 +105,20 @@ def show(scene, picture) -> bool:
 
 
 def look(scene) -> None:
-    """Makes every 3D viewport that shows the scene look through its camera."""
+    """Makes every 3D viewport that shows the scene look through its camera, at the whole picture."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas if window.scene == scene else ():
             if area.type == "VIEW_3D":
-                view = area.spaces.active.region_3d
-                view.view_perspective = "CAMERA"
-                view.view_camera_offset = 0, 0
+                _look_through(window, area)
+
+
+def _look_through(window, area) -> None:
+    view = area.spaces.active.region_3d
+    view.view_perspective, view.view_camera_offset = "CAMERA", (0, 0)
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        if not bpy.app.background and bpy.ops.view3d.view_center_camera.poll():
+            bpy.ops.view3d.view_center_camera()
 
 
 def go_back(scene, camera_gone: bool, size: tuple[int, int]) -> None:

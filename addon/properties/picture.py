@@ -95,7 +95,7 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
         name="Picture", description="Image file", subtype="FILE_PATH", options=names.PATH, update=image.follow
     )
     colour_space: EnumProperty(
-        name="Colour Space", description="Of the picture", default="auto", options=set(), update=image.follow,
+        name="Color Space", description="Of the picture", default="auto", options=set(), update=image.follow,
         items=[
             ("auto", "Auto", "Linear for EXR and HDR, sRGB else"),
             ("srgb", "sRGB", "As most pictures are"),

@@ -107,6 +107,23 @@ def test_several_pictures_lie_side_by_side_and_each_keeps_its_own(scene, tmp_pat
     assert rendered(scene, tmp_path / "b.exr").shape[:2] == (60, 30)
 
 
+@pytest.mark.parametrize("y, far", [(0, True), (-4, True), (6, False), (-30, False)])
+def test_nothing_of_the_artist_s_stands_before_it(scene, path, y, far):
+    """In Blender's own start file the cube would."""
+    corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    mesh = bpy.data.meshes.new("Cube")
+    mesh.from_pydata(corners, [], [(0, 1, 3, 2), (4, 5, 7, 6)])
+    cube = bpy.data.objects.new("Cube", mesh)
+    cube.location.y = y
+    scene.collection.objects.link(cube)
+    bpy.context.view_layer.update()
+    bpy.ops.stillwater.open_picture(filepath=path)
+    plane = scene.stillwater.active().plane
+    assert (plane.location.y > 0) == far
+    seen = plane.location.y - 10, plane.location.y  # from the camera to the plane
+    assert y + 1 < seen[0] or y - 1 > seen[1]
+
+
 def test_two_scenes(scene, path, tmp_path):
     bpy.ops.stillwater.open_picture(filepath=path)
     bpy.ops.scene.new(type="NEW")
