@@ -51,6 +51,12 @@ def settle(picture, filepath: str) -> tuple[Path, Path] | None:
     return before, after
 
 
+def leftovers() -> list[Path]:
+    """Folders in the user's folder that belong to no picture of the file that is open: of files never saved."""
+    here = {picture.id for scene in bpy.data.scenes for picture in scene.stillwater.pictures}
+    return [folder for folder in sorted(root_of("").iterdir()) if folder.is_dir() and folder.name not in here]
+
+
 def _folder(filepath: str, picture) -> Path:
     root = root_of(filepath)
     if filepath:

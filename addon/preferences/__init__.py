@@ -67,18 +67,26 @@ class STILLWATER_AP_preferences(bpy.types.AddonPreferences):
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for names in (("cache_folder", "cache_limit"), ("threads", "preview_size"), ("stale_render",)):
-            column = layout.column()
-            for name in names:
-                column.prop(self, name)
         column = layout.column()
-        column.prop(self, "python")
-        row = column.row()
-        row.alignment = "RIGHT"
-        row.operator("stillwater.try_python", icon="CHECKMARK")
+        column.prop(self, "cache_folder", placeholder=iface_("Beside each picture's recipe"))
+        column.prop(self, "cache_limit")
+        _to_the_right(column).operator("stillwater.clear_unsaved", icon="TRASH")
+        column = layout.column()
+        column.prop(self, "threads")
+        column.prop(self, "preview_size")
+        layout.prop(self, "stale_render")
+        column = layout.column()
+        column.prop(self, "python", placeholder=iface_("Blender's own"))
+        _to_the_right(column).operator("stillwater.try_python", icon="CHECKMARK")
         problem = self.python_problem or engine.problem()
         if problem:
-            column.label(text=iface_(problem), icon="ERROR")
+            column.label(text=problem, icon="ERROR")
+
+
+def _to_the_right(layout):
+    row = layout.row()
+    row.alignment = "RIGHT"
+    return row
 
 
 class STILLWATER_OT_try_python(bpy.types.Operator):

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from panels import Recorder, draw, registered
+from pictures import HEIGHT, WIDTH, paint
 
 
 @pytest.fixture
@@ -13,7 +14,7 @@ def panel(extension):
 
     def show(editor="view_3d"):
         shown = [draw(cls) for cls in registered(editor) if not hasattr(cls, "poll") or cls.poll(bpy.context)]
-        kinds = ("texts", "properties", "operators")
+        kinds = ("texts", "properties", "operators", "lists")
         return {kind: [entry for part in shown for entry in getattr(part, kind)] for kind in kinds}
 
     return show
@@ -92,3 +93,44 @@ def test_the_list_of_layers_is_changed_by_its_buttons(scene, picture):
         bpy.ops.stillwater.layer(action=action)
         assert [layer.name for layer in picture.layers] == names, action
         assert picture.active_layer == 0 or picture.active_layer < len(names)
+
+
+@pytest.fixture
+def opened(scene, tmp_path):
+    scene.view_settings.view_transform = "AgX"
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "lake.png")))
+    return scene.stillwater.active()
+
+
+def test_the_picture_is_shown(opened, panel):
+    shown = panel()
+    assert f"lake.png, {WIDTH} x {HEIGHT} px" in shown["texts"]
+    assert {"stillwater.replace_picture", "stillwater.reload_picture", "stillwater.remove_picture"} <= set(shown["operators"])
+    assert "stillwater.show_picture" not in shown["operators"] and "colour_space" in shown["properties"]
+
+
+def test_a_missing_picture_is_shown_with_what_to_do(opened, panel):
+    opened.missing = True
+    shown = panel()
+    assert "is not there" in " ".join(shown["texts"]) and shown["operators"].count("stillwater.replace_picture") == 2
+
+
+def test_the_view_transform_is_shown_with_a_way_back(scene, opened, panel):
+    assert "View transform Standard: renders equal the picture" in " ".join(panel()["texts"])
+    assert "stillwater.former_view" in panel()["operators"]
+    bpy.ops.stillwater.former_view()
+    assert "View transform AgX: renders differ from the picture's own colors" in " ".join(panel()["texts"])
+    assert "stillwater.standard_view" in panel()["operators"]
+
+
+def test_what_was_deleted_is_offered_again(scene, opened, panel):
+    bpy.data.objects.remove(opened.camera)
+    assert "stillwater.show_picture" in panel()["operators"]
+
+
+def test_a_second_picture_makes_a_list(scene, opened, panel, tmp_path):
+    assert "active_picture" not in panel()["lists"]
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "pond.png")))
+    assert "active_picture" in panel()["lists"]
+    scene.stillwater.active_picture = 0
+    assert "stillwater.show_picture" in panel()["operators"]  # the camera looks at the second

@@ -109,4 +109,5 @@ def test_they_are_drawn(chosen, wrong):
     layout = Recorder()
     type(chosen).draw(SimpleNamespace(layout=layout, **shown), bpy.context)
     assert {"cache_folder", "cache_limit", "threads", "preview_size", "python", "stale_render"} <= set(layout.properties)
-    assert layout.operators == ["stillwater.try_python"] and "can't be started" in " ".join(layout.texts)
+    assert layout.operators == ["stillwater.clear_unsaved", "stillwater.try_python"]
+    assert "can't be started" in " ".join(layout.texts)

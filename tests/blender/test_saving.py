@@ -142,6 +142,14 @@ def test_frames_that_can_t_be_moved_stay_and_are_shown(extension, baked, tmp_pat
     shows_its_frame(tmp_path)
 
 
+def test_frames_of_files_never_saved_can_be_deleted(extension, baked):
+    assert not any(folder == baked.parent for folder in extension.bake.places.leftovers())
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    assert baked.parent in extension.bake.places.leftovers()
+    assert bpy.ops.stillwater.clear_unsaved() == {"FINISHED"}
+    assert not baked.exists() and not bpy.ops.stillwater.clear_unsaved.poll()
+
+
 def test_an_absolute_path_stays_so_in_a_saved_file(scene, picture, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
     picture.layers[0].matte.file = "/shared/matte.png"
