@@ -62,8 +62,7 @@ def _told(operator, context, path: str, done: str) -> set[str]:
 
 
 class STILLWATER_OT_replace_picture(bpy.types.Operator):
-    """Choose another file for the active picture; layers, strokes and motions stay.
-    Find a file that was moved, too"""
+    """Choose another file for the active picture, or the same one where it is now. Layers and strokes stay"""
 
     bl_idname = "stillwater.replace_picture"
     bl_label = "Replace Picture"
@@ -89,8 +88,7 @@ class STILLWATER_OT_replace_picture(bpy.types.Operator):
 
 
 class STILLWATER_OT_reload_picture(bpy.types.Operator):
-    """Read the active picture's file again, after it changed on disk.
-    At another size, strokes and places go with the picture"""
+    """Read the active picture's file again. At another size, strokes and places go with it"""
 
     bl_idname = "stillwater.reload_picture"
     bl_label = "Reload Picture"

@@ -2,6 +2,8 @@
 
 import bpy
 
+from . import place
+
 
 class STILLWATER_MT_picture(bpy.types.Menu):
     """What can be done with the active picture."""
@@ -38,10 +40,23 @@ def _object(self, context):
     self.layout.menu("STILLWATER_MT_picture")
 
 
+def _context(self, context):
+    """On an object that was made for a picture: what can be done with that picture."""
+    pictures = context.scene.stillwater.pictures
+    hit = next((i for i, picture in enumerate(pictures) if context.object in place.parts(picture)), None)
+    if hit is None:
+        return
+    self.layout.separator()
+    if hit == context.scene.stillwater.active_picture:
+        self.layout.menu("STILLWATER_MT_picture")
+    else:
+        self.layout.operator("stillwater.show_picture", icon="VIEW_CAMERA").index = hit
+
+
 CLASSES = [STILLWATER_MT_picture]
 PLACES = [
     ("TOPBAR_MT_file_import", _import),
     ("VIEW3D_MT_image_add", _add),
     ("VIEW3D_MT_object", _object),
-    ("VIEW3D_MT_object_context_menu", _object),
+    ("VIEW3D_MT_object_context_menu", _context),
 ]

@@ -11,7 +11,7 @@ from ..ui import polls
 from . import place
 from . import scene as settings
 
-EXTENSIONS = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".hdr", ".tga", ".bmp", ".webp", ".jp2", ".dpx")
+EXTENSIONS = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".hdr", ".tga", ".bmp", ".webp", ".jp2", ".dpx", ".psd")
 
 
 def open_picture(scene, path: str):

@@ -125,8 +125,7 @@ def _purge(collection, things: list) -> None:
 
 
 class STILLWATER_OT_remove_picture(bpy.types.Operator):
-    """Remove the active picture with all that was made for it: plane, camera, strokes, node.
-    Its frames on disk stay"""
+    """Remove the active picture with its plane, camera, strokes and node. Its frames on disk stay"""
 
     bl_idname = "stillwater.remove_picture"
     bl_label = "Remove Picture"

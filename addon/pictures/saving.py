@@ -35,8 +35,11 @@ def _is_ours(tree) -> bool:
 
 @persistent
 def before_save(filepath, *_):
-    """Paths as the file needs them where it will lie."""
+    """Paths as the file needs them where it will lie. Blender's startup file has no path, and leaves all as it is."""
     global _moved
+    _moved = ("", "")
+    if not filepath:
+        return
     _moved = os.path.dirname(bpy.data.filepath), os.path.dirname(os.path.abspath(filepath))
     for picture in own_pictures():
         image.take_path(picture)
@@ -48,7 +51,7 @@ def before_save(filepath, *_):
 @persistent
 def after_save(filepath, *_):
     """A copy was saved elsewhere: the file that stays open keeps its own."""
-    if os.path.abspath(filepath) != os.path.abspath(bpy.data.filepath):
+    if filepath and os.path.abspath(filepath) != os.path.abspath(bpy.data.filepath):
         _rebase(*reversed(_moved))
 
 

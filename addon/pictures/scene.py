@@ -1,6 +1,7 @@
 """How the scene is set for a picture, and how it was set before: camera, render size, view transform, compositor."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..compositor import tree as node
 
@@ -55,7 +56,8 @@ def use_standard(scene) -> None:
             setattr(scene.view_settings, name, value)
     except TypeError:
         back_to_former_view(scene)
-        raise ValueError("This colour configuration has no view transform Standard on sRGB: colours may differ") from None
+        sentence = rpt_("This color configuration has no view transform Standard on sRGB: colors may differ")
+        raise ValueError(sentence) from None
 
 
 def back_to_former_view(scene) -> None:

@@ -13,8 +13,7 @@ from .open_picture import make_ready
 
 
 class STILLWATER_OT_show_picture(bpy.types.Operator):
-    """Look at the active picture: camera, render size and render become its own.
-    What was deleted of its plane, camera, strokes and node is made again"""
+    """Look at the active picture: camera and render become its own. What was deleted of these is made again"""
 
     bl_idname = "stillwater.show_picture"
     bl_label = "Show Picture"

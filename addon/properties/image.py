@@ -7,6 +7,7 @@ import contextlib
 import os
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 LARGEST_SIDE = 16384  # px: the engine's
 SPACES = {"srgb": "sRGB", "linear": "Linear Rec.709"}
@@ -28,33 +29,40 @@ def held():
 
 def load(path: str):
     """A new image of the file and its size, px. Throws ValueError with a sentence; then no image is left."""
-    name = os.path.basename(path)
+    if not path:
+        raise ValueError(rpt_("No picture was chosen"))
     try:
         image = bpy.data.images.load(path)
     except RuntimeError:
-        raise ValueError(f"{path}: there is no such picture") from None
+        raise ValueError(rpt_("{path}: there is no such picture").format(path=path)) from None
     size = tuple(image.size)
-    if 0 in size or image.source != "FILE":
-        problem = "Blender can't read it as a picture"
+    if image.source == "MOVIE":
+        problem = rpt_("{name}: is a movie, not a still picture")
+    elif 0 in size or image.source != "FILE":
+        problem = rpt_("{name}: Blender can't read it as a picture")
     elif max(size) > LARGEST_SIDE:
-        problem = f"{size[0]} x {size[1]} is more than {LARGEST_SIDE:,} pixels a side"
+        problem = rpt_("{name}: {size[0]} x {size[1]} pixels; at most {largest:,} a side can be animated")
     else:
         return image, size
     bpy.data.images.remove(image)
-    raise ValueError(f"{name}: {problem}")
+    raise ValueError(problem.format(name=os.path.basename(path), size=size, largest=LARGEST_SIDE))
 
 
 def check_size(picture) -> None:
     """Throws ValueError where the picture's file is missing, or came to be of another size than the picture has."""
     if picture.image is None:
         return
-    fresh, size = load(bpy.path.abspath(picture.picture))
+    path = bpy.path.abspath(picture.picture)
+    if picture.image.packed_file is not None and not os.path.isfile(path):
+        sentence = rpt_("{name}: its picture is packed into the .blend; unpack it (File > External Data) to bake")
+        raise ValueError(sentence.format(name=picture.name))
+    fresh, size = load(path)
     bpy.data.images.remove(fresh)
     if size != tuple(picture.picture_size):
-        old = picture.picture_size
-        raise ValueError(
-            f"{picture.name}: its file has {size[0]} x {size[1]} pixels now, not {old[0]} x {old[1]}: use Reload Picture"
+        sentence = rpt_(
+            "{name}: its file has {size[0]} x {size[1]} pixels now, not {old[0]} x {old[1]}: use Reload Picture"
         )
+        raise ValueError(sentence.format(name=picture.name, size=size, old=picture.picture_size))
 
 
 def stored(path: str) -> str:

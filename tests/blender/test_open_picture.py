@@ -154,7 +154,8 @@ def test_a_drop_onto_the_viewport_is_taken(scene):
 
 
 @pytest.mark.parametrize(
-    "name, words", [("none.png", "there is no such picture"), ("text.png", "can't read it as a picture")]
+    "name, words",
+    [("none.png", "there is no such picture"), ("text.png", "can't read it as a picture"), ("", "can't read it|no such")],
 )
 def test_what_is_no_picture_is_a_sentence_and_changes_nothing(scene, tmp_path, name, words):
     (tmp_path / "text.png").write_text("Once upon a time")
@@ -163,6 +164,18 @@ def test_what_is_no_picture_is_a_sentence_and_changes_nothing(scene, tmp_path, n
         bpy.ops.stillwater.open_picture(filepath=str(tmp_path / name))
     assert not bpy.data.images and not bpy.data.objects and not scene.stillwater.pictures
     assert not scene.stillwater.former.kept and scene.view_settings.view_transform == "AgX"
+
+
+def test_a_picture_that_is_too_large_is_refused(scene, tmp_path, monkeypatch, extension):
+    monkeypatch.setattr(extension.properties.image, "LARGEST_SIDE", 40)
+    with pytest.raises(RuntimeError, match="lake.png: 48 x 32 pixels; at most 40 a side can be animated"):
+        bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "lake.png")))
+    assert not scene.stillwater.pictures
+
+
+def test_no_file_chosen_is_a_sentence(scene):
+    with pytest.raises(RuntimeError, match="No picture was chosen"):
+        bpy.ops.stillwater.open_picture()
 
 
 def test_options_leave_the_scene_as_it_is(scene, path):
@@ -259,5 +272,15 @@ def test_it_is_found_in_menus(scene):
         assert names <= set(menus.operators(menu))
     ours = menus.operators("STILLWATER_MT_picture")
     assert {"stillwater.show_picture", "stillwater.replace_picture", "stillwater.remove_picture"} <= set(ours)
-    for menu in ("VIEW3D_MT_object", "VIEW3D_MT_object_context_menu"):
-        assert "STILLWATER_MT_picture" in menus.submenus(menu)
+    assert "STILLWATER_MT_picture" in menus.submenus("VIEW3D_MT_object")
+
+
+def test_a_right_click_on_a_picture_s_object_offers_what_can_be_done_with_it(scene, opened, tmp_path):
+    menu = "VIEW3D_MT_object_context_menu"
+    assert menus.submenus(menu) == ["STILLWATER_MT_picture"]
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "pond.png")))
+    assert menus.submenus(menu) == ["STILLWATER_MT_picture"]
+    bpy.context.view_layer.objects.active = scene.stillwater.pictures[0].camera
+    assert menus.submenus(menu) == [] and menus.operators(menu) == ["stillwater.show_picture"]
+    bpy.context.view_layer.objects.active = None
+    assert menus.submenus(menu) == menus.operators(menu) == []

@@ -142,6 +142,23 @@ def test_frames_that_can_t_be_moved_stay_and_are_shown(extension, baked, tmp_pat
     shows_its_frame(tmp_path)
 
 
+def test_blender_s_startup_file_takes_nothing_along(baked, tmp_path):
+    before = [getattr(owner, name) for owner, name in paths.each(active())]
+    bpy.ops.wm.save_homefile()
+    assert [getattr(owner, name) for owner, name in paths.each(active())] == before and baked.exists()
+    shows_its_frame(tmp_path)
+    (Path(os.environ["BLENDER_USER_RESOURCES"]) / "config" / "startup.blend").unlink()
+
+
+def test_a_packed_picture_says_what_to_do(baked, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    active().image.pack()
+    assert bpy.ops.stillwater.bake.poll()
+    (tmp_path / "art" / "lake.png").unlink()
+    with pytest.raises(RuntimeError, match="lake: its picture is packed into the .blend; unpack it"):
+        bpy.ops.stillwater.bake()
+
+
 def test_frames_of_files_never_saved_can_be_deleted(extension, baked):
     assert not any(folder == baked.parent for folder in extension.bake.places.leftovers())
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
