@@ -2,6 +2,7 @@
 
     engine       the one door to `import stillwater`
     versions     what differs between Blender 4.5 and 5.2
+    preferences  cache, threads, the worker's Python: the person's, not the file's
     properties   what the artist says, in the scene
     recipe       scene <-> recipe, without bpy
     ui           the sidebar's tab, and what all panels share
@@ -13,9 +14,9 @@
 Each room registers its own classes: properties, operators and the panels that show them.
 """
 
-from . import bake, compositor, engine, layers, pictures, properties, ui
+from . import bake, compositor, engine, layers, pictures, preferences, properties, ui
 
-ROOMS = [properties, ui, compositor, layers, bake, pictures]
+ROOMS = [preferences, properties, ui, compositor, layers, bake, pictures]
 
 
 def register():

@@ -31,6 +31,25 @@ def use_compositor(scene) -> None:
         scene.use_nodes = True
 
 
+def drop_compositor(scene) -> None:
+    """Takes the compositor away from `scene`, where nothing but its output is left in it."""
+    tree = compositor_tree(scene)
+    if tree is None or any(node.bl_idname not in ("CompositorNodeComposite", "NodeGroupOutput") for node in tree.nodes):
+        return
+    if not hasattr(scene, "compositing_node_group"):
+        tree.nodes.clear()
+        scene.use_nodes = False
+        return
+    scene.compositing_node_group = None
+    if tree.users == 0:
+        bpy.data.node_groups.remove(tree)
+
+
+def grease_pencils():
+    """The file's drawings; what 4.5 calls grease_pencils are its annotations."""
+    return bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
+
+
 def output_socket(tree):
     """The input socket of `tree` that takes the composited picture, made where there is none."""
     if hasattr(bpy.types, "CompositorNodeComposite"):  # before 5.0
@@ -80,3 +99,15 @@ def set_curve(datablock, path: str, index: int, points: list[tuple], interpolati
     for key in curve.keyframe_points:
         key.interpolation = interpolation
     curve.update()
+
+
+def scale_curve(datablock, path: str, index: int, factor: float) -> None:
+    """Multiplies the keys of a property's F-curves by `factor`, their handles too."""
+    data = datablock.animation_data
+    for curves in channelbags(data) if data is not None else ():
+        for curve in curves:
+            if curve.data_path == path and curve.array_index == index:
+                for key in curve.keyframe_points:
+                    for point in (key.co, key.handle_left, key.handle_right):
+                        point.y *= factor
+                curve.update()

@@ -9,8 +9,9 @@ import time
 
 import bpy
 
-from .. import engine, versions
+from .. import engine, preferences, versions
 from ..compositor import tree as node
+from ..properties import image
 from ..recipe.animation import Animation
 from ..recipe.write import frames_to_sample, recipe_of
 from . import places
@@ -43,11 +44,15 @@ def write_recipe(scene, picture) -> str:
 
 def start(scene, picture, fresh: bool = False):
     """Writes the recipe and starts its worker; returns the tree. Throws ValueError and OSError with a sentence."""
-    command = engine.worker_command()
+    chosen = preferences.of(bpy.context)
+    command = engine.worker_command(chosen.python)
     tree = node.claim(scene, picture)
     if tree.session_uid in _jobs:
         raise ValueError(f"{picture.name}: is being baked already")
+    image.take_path(picture)
+    image.check_size(picture)
     command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent"]
+    command += chosen.worker_options()
     command += ["--fresh"] if fresh else []
     state = tree.stillwater
     state.folder = places.locate_in(places.frames_of(picture))(".")
@@ -69,6 +74,13 @@ def cancel(tree) -> None:
     worker, progress = _jobs[tree.session_uid]
     progress.cancelled = True
     worker.cancel()
+
+
+def end(tree) -> None:
+    """Ends the tree's worker at once, where there is one."""
+    worker, _ = _jobs.pop(tree.session_uid, (None, None))
+    if worker is not None:
+        worker.close()
 
 
 def tick() -> float | None:

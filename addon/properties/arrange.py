@@ -3,12 +3,13 @@
 import re
 
 from .. import versions
-from . import names
+from . import migrate, names
 
 
 def add_picture(scene, name: str):
     """A new picture of `scene`, with an id of its own, made the active one."""
     picture = scene.stillwater.pictures.add()
+    scene.stillwater.version = migrate.VERSION
     picture.id = names.new_id()
     picture.name = name
     scene.stillwater.active_picture = len(scene.stillwater.pictures) - 1
@@ -40,7 +41,7 @@ def remove_layer(picture, index: int) -> None:
 
 
 def remove_picture(scene, index: int) -> None:
-    """Removes a picture, its keys and its drivers. Its frames and its node stay."""
+    """Removes a picture, its keys and its drivers. All that was made for it stays (pictures/remove.py)."""
     count = len(scene.stillwater.pictures)
     scene.stillwater.pictures.remove(index)
     _renumber(scene, "stillwater.pictures", {i: i - (i > index) for i in range(count) if i != index})

@@ -18,6 +18,7 @@ def recipe_of(scene, picture, animation: Animation, locate: Locate) -> dict:
         "stillwater": 1,
         **_given("picture", picture.picture and locate(picture.picture)),
         "colour_space": picture.colour_space,
+        **_given("size", list(picture.picture_size) if all(picture.picture_size) else None),
         "frames": [scene.frame_start, scene.frame_end],
         "fps": plain(scene.render.fps / scene.render.fps_base),
         "seed": picture.seed,

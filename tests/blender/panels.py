@@ -11,7 +11,7 @@ class Recorder:
     """Stands for Blender's layout: takes any call, keeps texts and properties, and checks that these exist."""
 
     def __init__(self):
-        self.texts, self.properties, self.operators = [], [], []
+        self.texts, self.properties, self.operators, self.lists = [], [], [], []
 
     def __getattr__(self, name):
         if name in ("row", "column", "box", "split"):
@@ -27,7 +27,7 @@ class Recorder:
     def progress(self, factor=0.0, text=""):
         self.texts.append(text)
 
-    def prop(self, data, name, text="", icon="NONE", emboss=True):
+    def prop(self, data, name, text="", icon="NONE", emboss=True, placeholder=""):
         getattr(data, name)
         assert icon in ICONS
         self.properties.append(name)
@@ -41,6 +41,7 @@ class Recorder:
 
     def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
+        self.lists.append(active_name)
 
 
 def registered(editor: str) -> list[type]:

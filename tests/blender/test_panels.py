@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from panels import Recorder, draw, registered
+from pictures import HEIGHT, WIDTH, paint
 
 
 @pytest.fixture
@@ -13,7 +14,7 @@ def panel(extension):
 
     def show(editor="view_3d"):
         shown = [draw(cls) for cls in registered(editor) if not hasattr(cls, "poll") or cls.poll(bpy.context)]
-        kinds = ("texts", "properties", "operators")
+        kinds = ("texts", "properties", "operators", "lists")
         return {kind: [entry for part in shown for entry in getattr(part, kind)] for kind in kinds}
 
     return show
@@ -22,7 +23,7 @@ def panel(extension):
 @pytest.mark.parametrize("editor", ["view_3d", "node_editor"])
 def test_an_empty_scene_offers_a_picture(scene, panel, editor):
     shown = panel(editor)
-    assert shown["operators"] == ["stillwater.add_picture", "stillwater.load_recipe"]
+    assert shown["operators"] == ["stillwater.open_picture", "stillwater.load_recipe"]
     assert shown["texts"][0].startswith("Engine ")
 
 
@@ -34,7 +35,7 @@ def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, t
 
 def test_panels_stand_in_the_order_of_the_work(scene):
     labels = [cls.bl_label for cls in registered("view_3d")]
-    assert labels == ["Stillwater", "Layers", "Wind", "View", "Bake", "Output"]
+    assert labels == ["Stillwater", "Picture", "Layers", "Wind", "View", "Bake", "Output"]
 
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])
@@ -94,8 +95,42 @@ def test_the_list_of_layers_is_changed_by_its_buttons(scene, picture):
         assert picture.active_layer == 0 or picture.active_layer < len(names)
 
 
-def test_a_new_picture_has_a_background(scene):
-    bpy.ops.stillwater.add_picture()
-    assert [layer.name for layer in scene.stillwater.active().layers] == ["Background"]
-    bpy.ops.stillwater.remove_picture()
-    assert scene.stillwater.active() is None and not bpy.ops.stillwater.remove_picture.poll()
+@pytest.fixture
+def opened(scene, tmp_path):
+    scene.view_settings.view_transform = "AgX"
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "lake.png")))
+    return scene.stillwater.active()
+
+
+def test_the_picture_is_shown(opened, panel):
+    shown = panel()
+    assert f"lake.png, {WIDTH} x {HEIGHT} px" in shown["texts"]
+    assert {"stillwater.replace_picture", "stillwater.reload_picture", "stillwater.remove_picture"} <= set(shown["operators"])
+    assert "stillwater.show_picture" not in shown["operators"] and "colour_space" in shown["properties"]
+
+
+def test_a_missing_picture_is_shown_with_what_to_do(opened, panel):
+    opened.missing = True
+    shown = panel()
+    assert "is not there" in " ".join(shown["texts"]) and shown["operators"].count("stillwater.replace_picture") == 2
+
+
+def test_the_view_transform_is_shown_with_a_way_back(scene, opened, panel):
+    assert "View transform Standard: renders equal the picture" in " ".join(panel()["texts"])
+    assert "stillwater.former_view" in panel()["operators"]
+    bpy.ops.stillwater.former_view()
+    assert "View transform AgX: renders differ from the picture's own colors" in " ".join(panel()["texts"])
+    assert "stillwater.standard_view" in panel()["operators"]
+
+
+def test_what_was_deleted_is_offered_again(scene, opened, panel):
+    bpy.data.objects.remove(opened.camera)
+    assert "stillwater.show_picture" in panel()["operators"]
+
+
+def test_a_second_picture_makes_a_list(scene, opened, panel, tmp_path):
+    assert "active_picture" not in panel()["lists"]
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "pond.png")))
+    assert "active_picture" in panel()["lists"]
+    scene.stillwater.active_picture = 0
+    assert "stillwater.show_picture" in panel()["operators"]  # the camera looks at the second

@@ -16,6 +16,7 @@ from stillwater.recipe.stochastic import Bob, Drift, Ripple, Sway
 
 # Property group -> the recipe's class, and the properties that stand for its fields under another name.
 OURS = {"id", "name", "tree", "plane", "camera", "strokes", "picture_size", "active_layer"}  # of a picture, in Blender only
+OURS |= {"collection", "image", "missing"}
 GROUPS = {
     "STILLWATER_PG_picture": (Recipe, OURS),
     "STILLWATER_PG_wind": (Wind, set()),
@@ -330,7 +331,7 @@ def test_the_whole_recipe_uses_every_field_and_no_default():
     motions = {layer["motion"]["type"]: layer["motion"] for layer in said["layers"] if "motion" in layer}
     for name, cls in (("sway", Sway), ("ripple", Ripple), ("bob", Bob)):
         assert set(motions[name]) - {"type"} == set(fields(cls))
-    assert set(said) == set(fields(Recipe)) - {"size"}
+    assert set(said) == set(fields(Recipe))
     assert set().union(*said["layers"]) == set(fields(Layer))
     assert {"file", "channel"} == set(fields(FileMatte)) and {"labels", "value"} == set(fields(LabelMatte))
     plain = [value for cls in (Wind, View, Output, Sway, Ripple, Bob) for value in fields(cls).values()]
