@@ -14,13 +14,16 @@ from bpy.props import (
 
 from . import names
 
+ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE", "drift": "OUTLINER_OB_VOLUME"}
+# Of a motion, what belongs to one place of one picture; the rest is its look, which presets hold.
+PLACES = {"armature_root", "armature_tip", "waterline", "water_id", "water", "seed"}
 FAR = 1e6  # px: as far from the picture as a place may be
 
 
 def place(name: str, description: str):
     """A place in the picture: px from its top left corner, y down."""
     return FloatVectorProperty(
-        name=name, description=f"{description} [px from the top left corner, y down]", size=2, min=-FAR, max=FAR,
+        name=name, description=f"{description} [px from the top left corner, y down]", size=2, subtype="XYZ", min=-FAR, max=FAR,
         precision=1, step=100, options=set(),
     )
 
@@ -57,11 +60,11 @@ class STILLWATER_PG_sway(bpy.types.PropertyGroup):
         default=1, min=0, max=1000, soft_max=5,
     )
     foreshortening: FloatProperty(
-        name="Foreshortening", description="How much it shortens as it bends away (0..1)",
+        name="Foreshortening", description="How much it shortens as it bends away (0..1)", subtype="FACTOR",
         default=0, min=0, max=1, options=set(),
     )
     shimmer: FloatProperty(
-        name="Shimmer", description="Small independent motion of leaves (0..1)",
+        name="Shimmer", description="Small independent motion of leaves (0..1)", subtype="FACTOR",
         default=0, min=0, max=1, options=set(),
     )
     seed: seed()
@@ -117,7 +120,7 @@ class STILLWATER_PG_bob(bpy.types.PropertyGroup):
     water_id: StringProperty(options={"HIDDEN"})
     water: StringProperty(
         name="Water", description="The ripple layer that carries it", options=set(),
-        get=names.get_layer("water_id"), set=names.set_layer("water_id"), search=names.search_layers,
+        get=names.get_layer("water_id"), set=names.set_layer("water_id"), search=names.search_water,
     )
     amount: FloatProperty(
         name="Amount", description="Strength; 1 goes with the water", default=1, min=0, max=1000, soft_max=5
@@ -146,17 +149,21 @@ class STILLWATER_PG_motion(bpy.types.PropertyGroup):
     type: EnumProperty(
         name="Motion", description="What the layer does", default="still", options=set(),
         items=[
-            ("still", "Still", "Does not move"),
-            ("sway", "Sway", "Trees, plants, flags: bends in the wind"),
-            ("ripple", "Ripple", "Water: waves under the wind"),
-            ("bob", "Bob", "Boats: heaves and rolls with the water"),
-            ("drift", "Drift", "Clouds: passes endlessly"),
+            ("still", "Still", "Does not move", ICONS["still"], 0),
+            ("sway", "Sway", "Trees, plants, flags: bends in the wind", ICONS["sway"], 1),
+            ("ripple", "Ripple", "Water: waves under the wind", ICONS["ripple"], 2),
+            ("bob", "Bob", "Boats: heaves and rolls with the water", ICONS["bob"], 3),
+            ("drift", "Drift", "Clouds: passes endlessly", ICONS["drift"], 4),
         ],
     )
     sway: PointerProperty(type=STILLWATER_PG_sway)
     ripple: PointerProperty(type=STILLWATER_PG_ripple)
     bob: PointerProperty(type=STILLWATER_PG_bob)
     drift: PointerProperty(type=STILLWATER_PG_drift)
+
+    def numbers(self):
+        """The numbers of its type; None for still."""
+        return getattr(self, self.type, None)
 
 
 CLASSES = [

@@ -15,7 +15,7 @@ from bpy.props import (
 )
 
 from . import names
-from .layer import STILLWATER_PG_layer
+from .layer import STILLWATER_PG_layer, select_active
 from .motions import place, seed
 
 COMPRESSIONS = ["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"]
@@ -110,7 +110,7 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     camera: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # sees just the plane
     strokes: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the grease pencil drawn on it
     picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
-    active_layer: IntProperty(min=0, options={"HIDDEN"})
+    active_layer: IntProperty(min=0, options={"HIDDEN"}, update=select_active)
 
 
 class STILLWATER_PG_scene(bpy.types.PropertyGroup):
