@@ -37,8 +37,7 @@ def to_data(curve, picture) -> dict:
 
 def _fields(struct, fields) -> dict:
     values = {name: getattr(struct, name) for name in fields}
-    return {name: list(value) if hasattr(value, "__iter__") and not isinstance(value, str) else value
-            for name, value in values.items()}
+    return {name: value if isinstance(value, str | int | float) else list(value) for name, value in values.items()}
 
 
 def _writable(modifier) -> dict:
@@ -137,5 +136,6 @@ def _fill_target(variable, target, read: dict, picture, ids: dict[str, str], los
         case "datablock":
             block = plain.datablock(read["datablock"])
             if block is None:
-                lost(f"{read['datablock']}, which is not in this file")
+                name = read["datablock"][1] if read["datablock"] else "something"
+                lost(f"{name}, which is not in this file")
             target.id, target.data_path = block, path

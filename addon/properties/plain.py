@@ -1,5 +1,8 @@
 """Property groups as plain data, so that they can be copied within a picture, to another one and into a file."""
 
+import ast
+import re
+
 import bpy
 
 
@@ -28,17 +31,23 @@ def set_values(group, values: dict) -> None:
             _set(group, name, value)
 
 
-def address(block) -> str | None:
-    """Where a datablock is found in its file: objects['Lamp'], materials['Sea'].node_tree."""
-    return repr(block).removeprefix("bpy.data.") if block else None
-
-
-def datablock(address: str | None):
-    """The datablock of this file at an address; None where there is none."""
-    try:
-        return bpy.data.path_resolve(address) if address else None
-    except ValueError:
+def address(block) -> list | None:
+    """Where a datablock is found: its collection, its name, its library's path, and the tree inside it that it is."""
+    found = re.fullmatch(r"bpy\.data\.(\w+)\[(.+)\](?:\.(\w+))?", repr(block)) if block else None
+    if found is None:
         return None
+    named = ast.literal_eval(found[2])
+    name, library = named if isinstance(named, tuple) else (named, None)
+    return [found[1], name, library, found[3]]
+
+
+def datablock(address: list | None):
+    """The datablock of this file at an address; None where there is none."""
+    if address is None:
+        return None
+    collection, name, library, inside = address
+    block = getattr(bpy.data, collection).get((name, library))
+    return getattr(block, inside, None) if inside else block
 
 
 def _plain(value):

@@ -169,6 +169,20 @@ def test_drivers_elsewhere_in_the_file_keep_reading_their_layer(extension, scene
     assert read == [f"{LAYERS}[2].opacity"] * 2
 
 
+def test_a_duplicate_s_driver_reads_the_same_node_tree(extension, scene, picture):
+    """One that is inside another datablock, and so in no list of the file."""
+    fill(extension, picture, "a")
+    material = bpy.data.materials.new("Sea")
+    if material.node_tree is None:
+        material.use_nodes = True
+    variable = scene.driver_add(f"{LAYERS}[0].opacity").driver.variables.new()
+    variable.targets[0].id_type, variable.targets[0].id = "NODETREE", material.node_tree
+    variable.targets[0].data_path = "nodes[0].width"
+    extension.properties.arrange.duplicate_layers(picture, [0])
+    targets = [curve.driver.variables[0].targets[0] for curve in scene.animation_data.drivers]
+    assert [(target.id, target.data_path) for target in targets] == [(material.node_tree, "nodes[0].width")] * 2
+
+
 def test_removing_a_picture_breaks_what_reads_it_and_nothing_else(extension, scene, picture):
     arrange = extension.properties.arrange
     second = arrange.add_picture(scene, "Second")
