@@ -10,7 +10,7 @@ import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 PLAIN = sorted((ADDON / "recipe").glob("*.py"))
-PLAIN += [ADDON / name for name in ("bake/worker.py", "bake/progress.py", "compositor/frames.py")]
+PLAIN += [ADDON / name for name in ("bake/worker.py", "bake/progress.py", "compositor/frames.py", "layers/missing.py")]
 
 
 def load(path: Path):
