@@ -46,8 +46,9 @@ def from_text(picture, text: str, at: int) -> list[str]:
             _each_path(said["values"], _relative)
             plain.set_values(picture.layers[index], said["values"])
             lost += _reconnect(picture, index, ids, names)
-            name = picture.layers[index].name
-            curves.from_data(picture, index, said, ids, lambda what, name=name: lost.append(f"{name}: a driver reads {what}"))
+            unread = []
+            curves.from_data(picture, index, said, ids, lost=unread.append)
+            lost += [f"{picture.layers[index].name}: a driver reads {what}" for what in unread]
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         arrange.remove_layers(picture, list(range(before, len(picture.layers))))
         raise ValueError(f"The copied layers can't be read: {error}") from error

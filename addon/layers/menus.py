@@ -48,15 +48,10 @@ class STILLWATER_MT_layers(bpy.types.Menu):
                              ("MOTION", "Select Same Motion")):
             layout.operator("stillwater.select_layers", text=text).action = action
         layout.separator()
-        draw_selected(layout)
-
-
-def draw_selected(layout) -> None:
-    """What is done to all selected layers at once."""
-    layout.operator("stillwater.show_layers", text="Show Selected", icon="HIDE_OFF").visible = True
-    layout.operator("stillwater.show_layers", text="Hide Selected", icon="HIDE_ON").visible = False
-    layout.menu("STILLWATER_MT_motion")
-    layout.operator("stillwater.copy_to_selected", text="Copy Motion to Selected").path = "motion"
+        layout.operator("stillwater.show_layers", text="Show Selected", icon="HIDE_OFF").visible = True
+        layout.operator("stillwater.show_layers", text="Hide Selected", icon="HIDE_ON").visible = False
+        layout.menu("STILLWATER_MT_motion")
+        layout.operator("stillwater.copy_to_selected", text="Copy Motion to Selected").path = "motion"
 
 
 def draw_context_menu(menu, context):

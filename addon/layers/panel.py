@@ -1,7 +1,7 @@
 """The list of layers, and what the active one is and does."""
 
 from ..ui import sidebar
-from . import menus, missing, selection
+from . import missing, selection
 from .presets import STILLWATER_PT_motion_presets
 
 
@@ -42,14 +42,18 @@ def _draw_list(layout, picture) -> None:
 def _draw_selection(layout, count: int) -> None:
     box = layout.box().column(align=True)
     box.label(text=f"{count} layers are selected", icon="CHECKBOX_HLT")
-    menus.draw_selected(box)
+    row = box.row(align=True)
+    row.operator("stillwater.show_layers", text="Show", icon="HIDE_OFF").visible = True
+    row.operator("stillwater.show_layers", text="Hide", icon="HIDE_ON").visible = False
+    row = box.row(align=True)
+    row.menu("STILLWATER_MT_motion")
+    row.operator("stillwater.copy_to_selected", text="Copy Motion", icon="COPYDOWN").path = "motion"
 
 
 def _draw_layer(layout, layer) -> None:
-    row = layout.row(align=True)
-    row.prop(layer.motion, "type")
+    layout.prop(layer.motion, "type")
     if layer.motion.numbers() is not None:
-        STILLWATER_PT_motion_presets.draw_button(row)
+        STILLWATER_PT_motion_presets.draw_button(layout, "Presets")
         {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift}[layer.motion.type](
             layout, layer.motion.numbers()
         )
@@ -98,8 +102,9 @@ def _draw_drift(layout, drift) -> None:
 
 def _draw_matte(layout, layer) -> None:
     if part := sidebar.fold(layout, "stillwater_matte", "Matte", closed=False):
+        named = {"file": ("file", "channel"), "labels": ("labels", "value")}
         sidebar.draw(part, layer.matte, "form")
-        sidebar.draw(part, layer.matte, *{"file": ("file", "channel"), "labels": ("labels", "value")}.get(layer.matte.form, ()))
+        sidebar.draw(part, layer.matte, *named.get(layer.matte.form, ()))
         sidebar.draw(part, layer, "feather")
 
 

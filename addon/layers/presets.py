@@ -27,28 +27,18 @@ class STILLWATER_OT_apply_preset(OfPicture, bpy.types.Operator):
         picture = context.scene.stillwater.active()
         try:
             preset = preset_files.read(self.filepath)
-            if preset.kind == "wind":
-                preset_files.apply(picture.wind, preset)
-            else:
-                self._to_layers(picture, preset)
+            groups = [picture.wind] if preset.kind == "wind" else _meant(picture, preset.kind)
+            for group in groups:
+                preset_files.apply(group, preset)
+            if preset.kind != "wind":
+                picture.layers[picture.active_layer].motion.type = preset.kind
         except FAILURES as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        return {"FINISHED"}
-
-    def _to_layers(self, picture, preset) -> None:
-        """To the active layer, and to the other selected ones that have its motion."""
-        if picture.active_layer >= len(picture.layers):
-            raise ValueError("Select a layer first")
-        layers = [picture.layers[i] for i in chosen(picture)]
-        active = picture.layers[picture.active_layer]
-        for layer in [layer for layer in layers if layer == active or layer.motion.type == preset.kind]:
-            preset_files.apply(getattr(layer.motion, preset.kind), preset)
-            layer.motion.type = preset.kind
-        moved = curves.moved(picture, picture.active_layer)
-        kept = sorted(name for name in preset.numbers if f"motion.{preset.kind}.{name}" in moved)
+        kept = sorted(set().union(*map(curves.moved, groups)) & set(preset.numbers))
         if kept:
             self.report({"WARNING"}, f"{', '.join(kept).capitalize()}: keyed or driven, which stays as it was")
+        return {"FINISHED"}
 
 
 class STILLWATER_OT_save_preset(OfPicture, bpy.types.Operator):
@@ -109,8 +99,8 @@ class _Presets:
     bl_label = "Presets"
 
     @classmethod
-    def draw_button(cls, layout) -> None:
-        layout.popover(panel=cls.__name__, text="", icon="PRESET")
+    def draw_button(cls, layout, text: str = "") -> None:
+        layout.popover(panel=cls.__name__, text=text, icon="PRESET")
 
     def draw_kind(self, context, kind: str, of: str) -> None:
         column = self.layout.column(align=True)
@@ -144,6 +134,15 @@ class STILLWATER_PT_wind_presets(_Presets, bpy.types.Panel):
 
     def draw(self, context):
         self.draw_kind(context, "wind", "WIND")
+
+
+def _meant(picture, kind: str) -> list:
+    """The numbers that a preset of a motion goes to: the active layer's, and those of selected ones of that motion."""
+    if picture.active_layer >= len(picture.layers):
+        raise ValueError("Select a layer first")
+    motions = [picture.layers[i].motion for i in chosen(picture)]
+    active = picture.layers[picture.active_layer].motion
+    return [getattr(motion, kind) for motion in motions if motion == active or motion.type == kind]
 
 
 def _motion_of(picture):

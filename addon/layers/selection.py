@@ -3,10 +3,9 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
-from ..properties import curves, motions
+from ..properties import arrange, curves, motions
 
 MOTIONS = [(name, name.title(), "", icon, i) for i, (name, icon) in enumerate(motions.ICONS.items())]
-NEVER_COPIED = {"name", "selected", "solo"}
 
 
 def chosen(picture) -> list[int]:
@@ -21,6 +20,9 @@ class OfPicture:
 
     @classmethod
     def poll(cls, context):
+        if not context.scene.is_editable:
+            cls.poll_message_set("The scene belongs to another file; change it there, or make it local")
+            return False
         if context.scene.stillwater.active() is None:
             cls.poll_message_set("Add a picture first")
             return False
@@ -147,7 +149,7 @@ class STILLWATER_OT_copy_to_selected(OfSeveral, bpy.types.Operator):
 
 def can_be_copied(layer, path: str) -> bool:
     """Whether a value at this path of a layer means something in another."""
-    if path.split(".")[0] in NEVER_COPIED or "[" in path:
+    if path.split(".")[0] in arrange.OWN or "[" in path:
         return False
     kind = _kind(layer, path)
     return kind is not None and kind.type not in ("POINTER", "COLLECTION") and not kind.is_readonly

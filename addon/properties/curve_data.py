@@ -1,6 +1,6 @@
 """A layer's curve as plain data: its path inside the layer, its keys, its modifiers, its driver.
 
-What a driver reads in the picture's scene is kept by the layer's id, what it reads elsewhere by the datablock's address.
+What a driver reads in the picture's scene is kept by the layer's id, what it reads elsewhere by where the datablock is.
 """
 
 import re
@@ -67,7 +67,8 @@ def _target(variable, target, picture) -> dict:
     if target.id == picture.id_data:
         found, whole = LAYER.fullmatch(target.data_path), f"{picture.path_from_id()}."
         if found and found["picture"] == picture.path_from_id() and int(found["layer"]) < len(picture.layers):
-            return {**read, "of": "layer", "layer": picture.layers[int(found["layer"])].id, "data_path": found["inside"]}
+            known = picture.layers[int(found["layer"])].id
+            return {**read, "of": "layer", "layer": known, "data_path": found["inside"]}
         if target.data_path.startswith(whole) and not found:
             return {**read, "of": "picture", "data_path": target.data_path.removeprefix(whole)}
         return {**read, "of": "scene"}

@@ -54,11 +54,11 @@ def remove(picture, index: int, inside: str = "") -> None:
             curves.remove(curve)
 
 
-def moved(picture, index: int) -> set[str]:
-    """The paths inside a layer that keys or drivers move."""
-    layer = f"{picture.path_from_id()}.layers[{index}]"
-    every = [curve for curves in _collections(picture.id_data) for curve in curves]
-    return {curve.data_path.removeprefix(f"{layer}.") for curve in every if _lies_in(curve, layer)}
+def moved(group) -> set[str]:
+    """The names of a group's properties that keys or drivers move."""
+    place = group.path_from_id()
+    every = [curve for curves in _collections(group.id_data) for curve in curves]
+    return {curve.data_path.removeprefix(f"{place}.") for curve in every if _lies_in(curve, place)}
 
 
 def to_data(picture, index: int) -> dict:

@@ -14,7 +14,8 @@ from bpy.props import (
 
 from . import names
 
-ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE", "drift": "OUTLINER_OB_VOLUME"}
+ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE"}
+ICONS["drift"] = "OUTLINER_OB_VOLUME"
 # Of a motion, what belongs to one place of one picture; the rest is its look, which presets hold.
 PLACES = {"armature_root", "armature_tip", "waterline", "water_id", "water", "seed"}
 FAR = 1e6  # px: as far from the picture as a place may be
@@ -23,8 +24,8 @@ FAR = 1e6  # px: as far from the picture as a place may be
 def place(name: str, description: str):
     """A place in the picture: px from its top left corner, y down."""
     return FloatVectorProperty(
-        name=name, description=f"{description} [px from the top left corner, y down]", size=2, subtype="XYZ", min=-FAR, max=FAR,
-        precision=1, step=100, options=set(),
+        name=name, description=f"{description} [px from the top left corner, y down]", size=2, subtype="XYZ",
+        min=-FAR, max=FAR, precision=1, step=100, options=set(),
     )
 
 
@@ -75,7 +76,7 @@ class STILLWATER_PG_ripple(bpy.types.PropertyGroup):
 
     amplitude: FloatProperty(
         name="Amplitude", description="Height of the waves; 1 is a grown sea at this wind",
-        default=1, min=0, max=1000, soft_max=5,
+        default=1, min=0, max=1000, soft_max=2,
     )
     roughness: FloatProperty(
         name="Roughness", description="How many times the field is tiled over the same water",
@@ -134,12 +135,12 @@ class STILLWATER_PG_drift(bpy.types.PropertyGroup):
         name="Own Velocity", description="Goes at a velocity of its own, not with the wind", options=set()
     )
     velocity: FloatVectorProperty(
-        name="Velocity", description="To the right and down [px/frame]", size=2,
+        name="Velocity", description="To the right and down [px/frame]", size=2, subtype="XYZ",
         min=-1e4, max=1e4, soft_min=-20, soft_max=20, precision=3,
     )
     wind: FloatProperty(
         name="With the Wind", description="Speed for each m/s of wind along the picture [px/frame]",
-        default=0.5, min=-1000, max=1000, soft_min=-5, soft_max=5, options=set(),
+        default=0.5, min=-1000, max=1000, soft_min=-2, soft_max=2, precision=3, options=set(),
     )
 
 

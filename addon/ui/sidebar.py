@@ -63,7 +63,7 @@ def draw_all(layout, group) -> None:
 
 
 def draw(layout, group, *names: str) -> None:
-    """Properties that belong together, closely below each other, with the units that Blender itself would not show."""
+    """Properties that belong together, closely below each other, with the units that Blender would not show."""
     column = layout.column(align=True)
     for name in names:
         column.prop(group, name, text=label(group.bl_rna.properties[name]))
@@ -72,7 +72,7 @@ def draw(layout, group, *names: str) -> None:
 def label(kind) -> str:
     """A property's name, with the unit that stands at the end of its description: Speed (m/s)."""
     found = re.search(r" \[([\w/]+)\]$", kind.description)
-    shown = getattr(kind, "subtype", "NONE") not in ("NONE", "XYZ") or getattr(kind, "unit", "NONE") != "NONE"
+    shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
     return f"{kind.name} ({found[1]})" if found and not shown else kind.name
 
 

@@ -20,10 +20,9 @@ def layers(extension, scene, picture):
 
 
 def numbers(extension) -> dict:
-    return {
-        layer["name"]: (over_time(extension, layer["name"], "opacity"), over_time(extension, layer["name"], "motion", "amount"))
-        for layer in said(extension)["layers"]
-    }
+    names = [layer["name"] for layer in said(extension)["layers"]]
+    fields = (("opacity",), ("motion", "amount"))
+    return {name: tuple(over_time(extension, name, *field) for field in fields) for name in names}
 
 
 def close(value):
@@ -57,7 +56,8 @@ def test_removing_takes_keys_and_drivers_away_and_leaves_the_others(extension, l
     extension.properties.arrange.remove_layers(layers, [1])
     after = numbers(extension)
     assert after == {name: before[name] for name in "ac"}
-    assert [driver.data_path for driver in bpy.context.scene.animation_data.drivers] == [f"{LAYERS}[1].motion.sway.amount"]
+    drivers = bpy.context.scene.animation_data.drivers
+    assert [driver.data_path for driver in drivers] == [f"{LAYERS}[1].motion.sway.amount"]
 
 
 def test_what_read_a_removed_layer_reads_no_other_one(extension, layers):

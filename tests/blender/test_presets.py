@@ -58,7 +58,8 @@ def test_the_engine_accepts_a_recipe_with_it(extension, whole, kind, path):
     recipe = said(extension)
     assert stillwater.parse(recipe)
     numbers = dict(files.read(path).numbers)
-    part = recipe["wind"] if kind == "wind" else next(one for one in recipe["layers"] if one["name"] == layer)["motion"]
+    motions = {one["name"]: one["motion"] for one in recipe["layers"]}
+    part = recipe["wind"] if kind == "wind" else motions[layer]
     if not numbers.pop("use_velocity", True):
         assert "velocity" not in part
     assert {name: part[name] for name in numbers} == numbers
@@ -75,7 +76,8 @@ def test_a_layer_is_added_with_a_preset(scene, picture):
     bpy.ops.stillwater.add_layer(preset=str(path))
     assert order() == "Tree in a Storm all"
     layer = picture.layers[0]
-    assert layer.motion.type == "sway" and layer.motion.sway.shimmer == pytest.approx(files.read(path).numbers["shimmer"])
+    assert layer.motion.type == "sway"
+    assert layer.motion.sway.shimmer == pytest.approx(files.read(path).numbers["shimmer"])
     with pytest.raises(RuntimeError, match="there is no such preset"):
         bpy.ops.stillwater.add_layer(preset="/nowhere/Tree.json")
     assert order() == "Tree in a Storm all"
@@ -90,7 +92,8 @@ def test_a_preset_goes_to_the_selected_layers_of_its_motion(extension, scene, pi
     bpy.ops.stillwater.apply_preset(filepath=str(path))
     shimmer = files.read(path).numbers["shimmer"]
     assert [layer.motion.type for layer in picture.layers] == ["sway", "sway", "ripple", "sway"]
-    assert [layer.motion.sway.shimmer == pytest.approx(shimmer) for layer in picture.layers] == [False, True, False, True]
+    stormy = [layer.motion.sway.shimmer == pytest.approx(shimmer) for layer in picture.layers]
+    assert stormy == [False, True, False, True]
 
 
 def test_what_a_preset_does_not_name_gets_its_default(scene, picture):
@@ -107,14 +110,21 @@ def test_a_wind_preset_leaves_its_direction(scene, picture):
 
 
 def test_a_keyed_number_stays_and_that_is_said(extension, scene, picture, capfd):
-    picture.layers[0].motion.type = "sway"
-    key(extension, "stillwater.pictures[0].layers[0].motion.sway.amount", (1, 3), (9, 4))
+    """Of any layer that the preset goes to, and of the wind."""
+    fill(extension, picture, "a", "b")
+    for layer in picture.layers:
+        layer.motion.type, layer.selected = "sway", True
+    key(extension, "stillwater.pictures[0].layers[1].motion.sway.amount", (1, 3), (9, 4))
+    key(extension, "stillwater.pictures[0].wind.speed", (1, 3), (9, 4))
     bpy.ops.stillwater.apply_preset(filepath=str(files.paths("sway")[0]))
     assert "Amount: keyed or driven, which stays as it was" in capfd.readouterr().out
+    bpy.ops.stillwater.apply_preset(filepath=str(files.paths("wind")[0]))
+    assert "Speed: keyed or driven, which stays as it was" in capfd.readouterr().out
 
 
-@pytest.mark.parametrize("of, kind", [("MOTION", "sway"), ("MOTION", "ripple"), ("MOTION", "bob"), ("MOTION", "drift"), ("WIND", "wind")])
-def test_an_own_preset_is_saved_as_a_file_and_brings_every_number_back(extension, scene, picture, of, kind):
+@pytest.mark.parametrize("kind", files.KINDS)
+def test_an_own_preset_is_saved_as_a_file_and_brings_every_number_back(extension, scene, picture, kind):
+    of = "WIND" if kind == "wind" else "MOTION"
     layer = picture.layers[0]
     layer.motion.type = kind if kind != "wind" else "still"
     group = picture.wind if kind == "wind" else layer.motion.numbers()
@@ -163,8 +173,8 @@ def test_what_is_no_own_preset_is_never_deleted(scene, tmp_path):
         ('{"stillwater_preset": 1, "kind": "sway"}', "is not a preset of Stillwater"),
         ('{"stillwater_preset": 2, "kind": "sway", "numbers": {}}', "is a preset of another version of Stillwater"),
         ('{"stillwater_preset": 1, "kind": "swim", "numbers": {}}', "is a preset of another version of Stillwater"),
-        ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"speed": 1}}', "sway has no speed that a preset could set"),
-        ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"seed": 1}}', "sway has no seed that a preset could set"),
+        ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"speed": 1}}', "has no speed that a preset could set"),
+        ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"seed": 1}}', "has no seed that a preset could set"),
         ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"mass": 3, "shimmer": 2}}', "shimmer can't be 2"),
         ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"shimmer": "x"}}', "shimmer can't be 'x'"),
         ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"shimmer": true}}', "shimmer can't be True"),
