@@ -66,7 +66,8 @@ def channelbags(data) -> list:
     """The collections of F-curves that move a datablock, given its animation data: its action's and its strips'."""
     strips = [strip for track in data.nla_tracks for strip in track.strips]
     used = [(data.action, data.action_slot), *((strip.action, strip.action_slot) for strip in strips)]
-    return [bag.fcurves for action, slot in used if (bag := _channelbag(action, slot)) is not None]
+    bags = [bag for action, slot in used if (bag := _channelbag(action, slot)) is not None]
+    return list({bag.as_pointer(): bag.fcurves for bag in bags}.values())  # strips may share an action
 
 
 def stripped_paths(data) -> set[str]:
@@ -87,12 +88,17 @@ def _channelbag(action, slot):
     return strips[0].channelbag(slot) if strips else None
 
 
-def set_curve(datablock, path: str, index: int, points: list[tuple], interpolation: str = "LINEAR") -> None:
-    """Replaces the F-curve of a property of `datablock`: `points` are (frame, value)."""
+def ensure_curve(datablock, path: str, index: int):
+    """The F-curve of a property of `datablock` in its own action, made where it is missing."""
     data = datablock.animation_data or datablock.animation_data_create()
     if data.action is None:
         data.action = bpy.data.actions.new(f"{datablock.name}Action")
-    curve = data.action.fcurve_ensure_for_datablock(datablock, path, index=index)
+    return data.action.fcurve_ensure_for_datablock(datablock, path, index=index)
+
+
+def set_curve(datablock, path: str, index: int, points: list[tuple], interpolation: str = "LINEAR") -> None:
+    """Replaces the F-curve of a property of `datablock`: `points` are (frame, value)."""
+    curve = ensure_curve(datablock, path, index)
     curve.keyframe_points.clear()
     curve.keyframe_points.add(len(points))
     curve.keyframe_points.foreach_set("co", [float(number) for point in points for number in point])

@@ -16,7 +16,7 @@ from bpy.props import (
 )
 
 from . import image, names
-from .layer import STILLWATER_PG_layer
+from .layer import STILLWATER_PG_layer, select_active
 from .motions import place, seed
 
 COMPRESSIONS = ["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"]
@@ -116,7 +116,7 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     image: PointerProperty(type=bpy.types.Image, options={"HIDDEN"})  # the file as plane and node show it (image.py)
     missing: BoolProperty(options={"HIDDEN"})  # the file was not found when it was last looked for
     picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
-    active_layer: IntProperty(min=0, options={"HIDDEN"})
+    active_layer: IntProperty(min=0, options={"HIDDEN"}, update=select_active)
 
 
 class STILLWATER_PG_former(bpy.types.PropertyGroup):

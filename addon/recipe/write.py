@@ -80,7 +80,7 @@ def _view(view, animation: Animation) -> dict:
 def _layer(picture, layer, animation: Animation, locate: Locate) -> dict:
     followed = layer.follows.layer
     return {
-        **_fields(layer, animation, but=("id", "follows", "matte", "fill", "motion")),
+        **_fields(layer, animation, but=("id", "selected", "solo", "follows", "matte", "fill", "motion")),
         **_given("follows", followed and {"layer": followed, "mirror": layer.follows.mirror}),
         **_given("matte", _matte(layer.matte, locate)),
         "fill": {"file": locate(layer.fill.file)} if layer.fill.method == "file" else {"method": layer.fill.method},

@@ -4,6 +4,7 @@
     CLASSES = sidebar.in_both_editors("layers", _Layers)
 """
 
+import re
 import textwrap
 
 import bpy
@@ -56,7 +57,27 @@ def say(context, layout, sentence: str, icon: str) -> None:
 
 
 def draw_all(layout, group) -> None:
+    """All properties of a group, in the order in which they are declared."""
     layout.use_property_split = True
-    column = layout.column()
-    for name in type(group).__annotations__:
-        column.prop(group, name)
+    draw(layout, group, *type(group).__annotations__)
+
+
+def draw(layout, group, *names: str) -> None:
+    """Properties that belong together, closely below each other, with the units that Blender would not show."""
+    column = layout.column(align=True)
+    for name in names:
+        column.prop(group, name, text=label(group.bl_rna.properties[name]))
+
+
+def label(kind) -> str:
+    """A property's name, with the unit that stands at the end of its description: Speed (m/s)."""
+    found = re.search(r" \[([\w/]+)\]$", kind.description)
+    shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
+    return f"{kind.name} ({found[1]})" if found and not shown else kind.name
+
+
+def fold(layout, identifier: str, text: str, closed: bool = True):
+    """A part that can be folded away, closed until it is asked for; None while it is folded."""
+    header, body = layout.panel(identifier, default_closed=closed)
+    header.label(text=text)
+    return body

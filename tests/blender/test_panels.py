@@ -40,14 +40,48 @@ def test_panels_stand_in_the_order_of_the_work(scene):
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])
 def test_every_number_of_a_motion_is_shown(scene, picture, panel, motion):
-    picture.layers[0].motion.type = motion
+    layer = picture.layers[0]
+    layer.motion.type, layer.motion.ripple.spectrum = motion, "tma"
+    layer.motion.bob.waterline.add()
     shown = panel()["properties"]
-    row = Recorder()
-    bpy.types.STILLWATER_UL_layers.draw_item(None, bpy.context, row, picture, picture.layers[0], 0, picture, "", 0)
-    assert row.properties == ["name", "visible"]
-    group = getattr(picture.layers[0].motion, motion, None)
+    layer.motion.drift.use_velocity = True
+    shown += panel()["properties"]
+    group = layer.motion.numbers()
     wanted = [] if group is None else [n for n in type(group).__annotations__ if n not in ("waterline", "water_id")]
     assert set(wanted) <= set(shown) and "speed" in shown and "fov" in shown and "compression" in shown
+    assert ("place" in shown) == (motion == "bob")
+
+
+@pytest.mark.parametrize("spectrum, names", [("phillips", []), ("jonswap", ["fetch"]), ("tma", ["fetch", "depth"])])
+def test_only_what_a_spectrum_needs_is_shown(picture, panel, spectrum, names):
+    picture.layers[0].motion.type, picture.layers[0].motion.ripple.spectrum = "ripple", spectrum
+    assert [name for name in panel()["properties"] if name in ("fetch", "depth")] == names + ["depth"]  # the output's
+
+
+def row(picture, index: int) -> Recorder:
+    drawn = Recorder()
+    layer = picture.layers[index]
+    bpy.types.STILLWATER_UL_layers.draw_item(None, bpy.context, drawn, picture, layer, 0, picture, "", index)
+    return drawn
+
+
+def test_a_row_of_the_list_warns_where_something_is_missing(extension, picture):
+    extension.properties.arrange.add_layer(picture, "sky")
+    assert row(picture, 0).properties == row(picture, 1).properties == ["selected", "name", "solo", "visible"]
+    assert (row(picture, 0).texts, row(picture, 1).texts) == ([""], [])
+
+
+def test_units_are_told_where_blender_shows_none(picture, extension):
+    label, kinds = extension.ui.sidebar.label, lambda group: group.bl_rna.properties
+    wind, view, layer = picture.wind, picture.view, picture.layers[0]
+    motion = layer.motion
+    said = [label(kinds(wind)[name]) for name in ("speed", "direction", "gusts", "gust_size")]
+    assert said == ["Speed (m/s)", "Direction", "Gusts", "Gust Size"]
+    assert (label(kinds(view)["fov"]), label(kinds(view)["height"])) == ("Field of View", "Eye Height (m)")
+    assert [label(kinds(motion.sway)[name]) for name in ("frequency", "damping")] == ["Frequency (Hz)", "Damping (1/s)"]
+    assert label(kinds(motion.drift)["velocity"]) == "Velocity (px/frame)"
+    assert label(kinds(layer)["feather"]) == "Feather"
+    assert label(kinds(motion.sway)["armature_root"]) == "Root" and label(kinds(motion.ripple)["mode"]) == "Mode"
 
 
 FORMS = {"none": set(), "file": {"file", "channel"}, "labels": {"labels", "value"}}
@@ -79,20 +113,69 @@ def test_a_long_sentence_is_broken_into_lines(extension, scene, picture, panel):
     assert "first warning" in shown and "second warning" in shown
 
 
-def test_the_list_of_layers_is_changed_by_its_buttons(scene, picture):
-    for action, names in [
-        ("add", ["Layer", "all"]),
-        ("down", ["all", "Layer"]),
-        ("down", ["all", "Layer"]),
-        ("up", ["Layer", "all"]),
-        ("remove", ["all"]),
-        ("remove", []),
-        ("remove", []),
-        ("add", ["Background"]),
-    ]:
-        bpy.ops.stillwater.layer(action=action)
-        assert [layer.name for layer in picture.layers] == names, action
-        assert picture.active_layer == 0 or picture.active_layer < len(names)
+def test_several_selected_layers_are_told_and_changed_together(extension, picture, panel):
+    extension.properties.arrange.add_layer(picture, "sky")
+    alone = panel()
+    assert "2 layers are selected" not in alone["texts"] and "stillwater.copy_to_selected" not in alone["operators"]
+    picture.layers[1].selected = True
+    several = panel()
+    assert "2 layers are selected" in several["texts"]
+    assert {"stillwater.show_layers", "stillwater.copy_to_selected"} <= set(several["operators"])
+
+
+def test_no_layer_is_a_sentence_that_says_what_to_do(picture, panel):
+    picture.layers.clear()
+    assert "Add a layer for each part of the picture that moves" in " ".join(panel()["texts"])
+
+
+def menu(name: str) -> Recorder:
+    drawn = Recorder()
+    getattr(bpy.types, name).draw(SimpleNamespace(layout=drawn), bpy.context)
+    return drawn
+
+
+def test_the_menu_of_new_layers_offers_each_motion_s_presets(picture):
+    offered = menu("STILLWATER_MT_add_layer")
+    assert offered.texts[0] == "Still"
+    assert {"Still Tree", "Tree in a Storm", "Pond", "Lake", "Sea", "Boat", "Ship", "Clouds"} <= set(offered.texts)
+    assert set(offered.operators) == {"stillwater.add_layer"}
+
+
+def test_the_menu_of_layers_holds_what_has_no_button(picture):
+    wanted = {"duplicate_layer", "copy_layers", "paste_layers", "move_layer", "select_layers", "show_layers"}
+    drawn = menu("STILLWATER_MT_layers")
+    assert {f"stillwater.{name}" for name in wanted | {"copy_to_selected"}} == set(drawn.operators)
+    assert menu("STILLWATER_MT_motion").texts == ["Still", "Sway", "Ripple", "Bob", "Drift"]
+
+
+@pytest.mark.parametrize("panel_name, names", [("STILLWATER_PT_motion_presets", ["Lake", "Pond", "Sea"]),
+                                               ("STILLWATER_PT_wind_presets", ["Breeze", "Calm", "Storm", "Wind"])])
+def test_presets_drop_down_with_a_line_to_save_one(picture, panel_name, names):
+    picture.layers[0].motion.type = "ripple"
+    cls = getattr(bpy.types, panel_name)
+    shown = Recorder()
+    part = SimpleNamespace(layout=shown, draw_kind=lambda *args: cls.draw_kind(SimpleNamespace(layout=shown), *args))
+    cls.draw(part, bpy.context)
+    assert [text for text in shown.texts if text] == names and shown.properties == ["preset_name"]
+    assert shown.operators == ["stillwater.apply_preset"] * len(names) + ["stillwater.save_preset"]
+
+
+def test_a_right_click_on_a_layer_s_value_copies_it(extension, scene, picture):
+    extension.properties.arrange.add_layer(picture, "sky")
+    layer = picture.layers[1]
+
+    def offered(pointer, name):
+        drawn = Recorder()
+        context = SimpleNamespace(scene=scene, button_pointer=pointer, button_prop=pointer.bl_rna.properties[name])
+        extension.layers.menus.draw_context_menu(SimpleNamespace(layout=drawn), context)
+        return [(one.path, one.layer) for one in drawn.made]
+
+    assert offered(layer.motion.sway, "amount") == [("motion.sway.amount", 1)]
+    assert offered(layer, "opacity") == [("opacity", 1)] and offered(layer.motion, "type") == [("motion.type", 1)]
+    assert offered(layer, "name") == offered(picture.wind, "speed") == offered(scene.render, "fps") == []
+    drawn = Recorder()
+    extension.layers.menus.draw_context_menu(SimpleNamespace(layout=drawn), SimpleNamespace(scene=scene))
+    assert drawn.operators == []
 
 
 @pytest.fixture

@@ -10,7 +10,8 @@ import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 PLAIN = sorted((ADDON / "recipe").glob("*.py"))
-PLAIN += [ADDON / name for name in ("bake/worker.py", "bake/progress.py", "bake/folders.py", "compositor/frames.py")]
+PLAIN += [ADDON / "bake" / name for name in ("worker.py", "progress.py", "folders.py")]
+PLAIN += [ADDON / name for name in ("compositor/frames.py", "layers/missing.py")]
 
 
 def load(path: Path):
