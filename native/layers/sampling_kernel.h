@@ -15,34 +15,6 @@ struct SamplingWeights {
   int column[64], row[64];
 };
 
-// Smallest and largest of at least one number, four at a time; no numbers where one of them is none.
-static inline void sampling_range(const float* at, int count, float* low, float* high) {
-  const stillwater_v4 first = {at[0], at[0], at[0], at[0]};
-  stillwater_v4 smallest = first, largest = first, nothing = first - first;  // x - x is 0 for numbers only
-  int i = 0;
-  for (; i + 4 <= count; i += 4) {
-    const stillwater_v4 here = *(const stillwater_v4u*)(at + i);
-    smallest = here < smallest ? here : smallest;
-    largest = here > largest ? here : largest;
-    nothing += here - here;
-  }
-  *low = smallest[0];
-  *high = largest[0];
-  float no_number = nothing[0];
-  for (int k = 1; k < 4; ++k) {
-    *low = smallest[k] < *low ? smallest[k] : *low;
-    *high = largest[k] > *high ? largest[k] : *high;
-    no_number += nothing[k];
-  }
-  for (; i < count; ++i) {
-    *low = at[i] < *low ? at[i] : *low;
-    *high = at[i] > *high ? at[i] : *high;
-    no_number += at[i] - at[i];
-  }
-  *low += no_number;
-  *high += no_number;
-}
-
 static inline void catmull_rom_weights(const float* at, int count, int* whole, float (*weights)[64]) {
   for (int i = 0; i < count; ++i) {
     const int cut = (int)at[i];

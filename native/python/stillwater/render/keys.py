@@ -24,7 +24,7 @@ ENGINES = {
     "sway": 1,
     "ripple": 1,
     "bob": 1,
-    "drift": 1,
+    "drift": 2,
 }
 
 
