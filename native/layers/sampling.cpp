@@ -89,16 +89,24 @@ Range bring_inside(float* at, int count, int size, const Beyond& beyond) {
   return Range(at, count);
 }
 
-int border_of(const Beyond& beyond) { return beyond.wraps ? cv::BORDER_WRAP : cv::BORDER_REFLECT; }
-
 }  // namespace
 
 Source::Source(const Rgba& image, Beyond across, Beyond down)
     : across_(across), down_(down), width_(image.cols), height_(image.rows) {
   if (empty()) return;
-  Rgba wide;
-  cv::copyMakeBorder(image, wide, 0, 0, frame, frame, border_of(across));
-  cv::copyMakeBorder(wide, padded_, frame, frame, 0, 0, border_of(down));
+  padded_.create(height_ + 2 * frame, width_ + 2 * frame);
+  const auto inside = [](int at, int size, const Beyond& beyond) {
+    return cv::borderInterpolate(at, size, beyond.wraps ? cv::BORDER_WRAP : cv::BORDER_REFLECT);
+  };
+  for (int y = -frame; y < height_ + frame; ++y) {
+    const cv::Vec4f* row = image[inside(y, height_, down)];
+    cv::Vec4f* out = padded_[y + frame] + frame;
+    std::copy_n(row, width_, out);
+    for (int x = 1; x <= frame; ++x) {
+      out[-x] = row[inside(-x, width_, across)];
+      out[width_ - 1 + x] = row[inside(width_ - 1 + x, width_, across)];
+    }
+  }
   map_coverage();
 }
 
