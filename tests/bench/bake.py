@@ -37,26 +37,19 @@ def _together() -> Row:
 def _memory():
     """What `render` takes at most, above the same process after import, against 2 x the layers' boxes in float RGBA + 6
     frames: from its files to the first frame, and with the layers in the cache, as all later bakes of a picture are."""
-    imported = "import stillwater.render.loop as loop; print(open('/proc/self/statm').read().split()[1])"
-    done = subprocess.run([sys.executable, "-c", imported], capture_output=True, text=True, check=True, timeout=60)
-    start = int(done.stdout) * os.sysconf("SC_PAGE_SIZE")
     with tempfile.TemporaryDirectory() as folder:
         recipe = write_recipe(LARGE, Path(folder))
         preparing = _peak("render", recipe, "--frames", "1-1")
-        baking = _peak("render", recipe, "--frames", "2-6")
+        baking = _peak("render", recipe, "--frames", "2-9")
         (facts,) = (json.loads(meta.read_text()) for meta in Path(folder).glob(".stillwater-cache/*/meta.json"))
     boxes = sum(width * height for _, _, width, height in facts["colour"])
     reference = (2 * boxes + 6 * LARGE.width * LARGE.height) * 4 * 4
-    yield Row("memory of that, above the process after import", (baking - start) / 1e6, reference / 1e6, 1.0, "MB")
-    yield Row("memory of cutting its layers and a first frame", (preparing - start) / 1e6, reference / 1e6, 1.0, "MB")
+    yield Row("memory of that, above the process after import", baking / 1e6, reference / 1e6, 1.0, "MB")
+    yield Row("memory of cutting its layers and a first frame", preparing / 1e6, reference / 1e6, 1.0, "MB")
 
 
 def _peak(*arguments) -> int:
-    """Bytes that a command line held at most."""
-    command = [sys.executable, "-m", "stillwater", *map(str, arguments), "--progress", "none"]
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        raise subprocess.CalledProcessError(process.returncode, command)
-    return usage.ru_maxrss * 1024
+    """Bytes that a command line held at most, beyond those it held when all was imported."""
+    command = [sys.executable, str(Path(__file__).with_name("peak.py")), *map(str, arguments), "--progress", "none"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300)
+    return int(done.stdout)

@@ -1,18 +1,18 @@
 """How much memory a render will need at most, before it starts.
 
-The larger of two moments: cutting the layers (picture, mattes, the layers so far and the widest one at work), and
-rendering (the layers, mapped and made ready, and the frame at work). A test holds it within 20 % of the measured peak.
+The largest of three moments: cutting the layers (picture, mattes, the layers so far and the widest one at work),
+making them ready (those from the cache, mapped, and what is made of them), and rendering (what is ready, and the frame
+at work). A test holds it within 20 % of the measured peak.
 """
-
-from ..recipe.stochastic import Drift
 
 PROCESS = 170e6  # Python and the engine's libraries
 RGBA, PLANE = 16, 4  # bytes a pixel
 LEFT = RGBA + 2 * PLANE  # what is left of the picture, what hides it, what is solid
 AT_WORK = 7 * RGBA  # a layer that is being cut: its colour, the one behind, and the pyramids they come from
-FRAME = 52  # picture, flow, matte, and what is written of them
+FRAME = 28  # picture, flow, matte
+WRITTEN, WRITTEN_AT_ONCE = 24, 64 << 20  # what is written of them; bytes of it that are held
 STRIP = 1.25  # an endless layer's period, of its side
-BLURRED = 2.5  # a drift, its blurred copy, and what that is made of
+TURNED = 1.8  # an endless layer that is being made ready, beside itself: on its canvas, and one period of it
 
 
 def needed_bytes(job) -> float:
@@ -47,16 +47,23 @@ def _cutting(job, boxes) -> float:
 
 def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
-    pixels = job.sources.size[0] * job.sources.size[1]
-    layers = 0.0
+    canvas = RGBA * job.sources.size[0] * job.sources.size[1]
+    cut, ready, at_work = 0.0, 0.0, canvas if shrunk < 1 else 0.0
     for layer, box, endless in zip(job.recipe.layers, boxes, job.timeline.endless, strict=True):
-        ready = pixels * (STRIP if endless[0] else 1) * (STRIP if endless[1] else 1) if any(endless) else _area(box)
-        copies = BLURRED if isinstance(layer.motion, Drift) else 1
-        layers += RGBA * (_area(box) + shrunk * ready * copies * layer.visible)
+        cut += RGBA * _area(box)
+        if not layer.visible:
+            continue
+        width = STRIP * job.sources.size[0] if endless[0] else box[2]
+        height = STRIP * job.sources.size[1] if endless[1] else box[3]
+        plate = RGBA * shrunk * width * height
+        ready += plate
+        if any(endless):
+            at_work = max(at_work, TURNED * plate)
     if job.has_alpha:
-        layers *= 2
+        cut, ready = 2 * cut, 2 * ready
     own = RGBA * sum(layer.visible for layer in job.recipe.layers) if job.recipe.output.layers else 0
-    return layers + job.size[0] * job.size[1] * (FRAME + own)
+    pixels = job.size[0] * job.size[1]
+    return ready + max(cut + at_work, pixels * (FRAME + own) + min(pixels * (WRITTEN + own), WRITTEN_AT_ONCE))
 
 
 def _union(a, b) -> tuple:
