@@ -4,14 +4,18 @@
     versions     what differs between Blender 4.5 and 5.2
     properties   what the artist says, in the scene
     recipe       scene <-> recipe, without bpy
+    ui           the sidebar's tab, and what all panels share
     compositor   the node that shows the frames
-    bake         the worker that makes them
-    ui           panels
+    layers       the list of layers, their motions, wind and view
+    bake         the worker that makes the frames
+    pictures     from a file on disk to a picture that can be drawn on, and away again
+
+Each room registers its own classes: properties, operators and the panels that show them.
 """
 
-from . import bake, compositor, engine, properties, ui
+from . import bake, compositor, engine, layers, pictures, properties, ui
 
-ROOMS = [properties, compositor, bake, ui]
+ROOMS = [properties, ui, compositor, layers, bake, pictures]
 
 
 def register():

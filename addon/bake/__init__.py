@@ -3,9 +3,9 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from . import job, operators
+from . import job, operators, panel
 
-CLASSES = operators.CLASSES
+CLASSES = [*operators.CLASSES, *panel.CLASSES]
 
 
 @persistent

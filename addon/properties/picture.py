@@ -9,6 +9,7 @@ from bpy.props import (
     EnumProperty,
     FloatProperty,
     IntProperty,
+    IntVectorProperty,
     PointerProperty,
     StringProperty,
 )
@@ -105,6 +106,10 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     output: PointerProperty(type=STILLWATER_PG_output)
     layers: CollectionProperty(type=STILLWATER_PG_layer)
     tree: PointerProperty(type=bpy.types.NodeTree, options={"HIDDEN"})  # the node's (compositor/tree.py)
+    plane: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the image Empty that shows it (plane.py)
+    camera: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # sees just the plane
+    strokes: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the grease pencil drawn on it
+    picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
     active_layer: IntProperty(min=0, options={"HIDDEN"})
 
 

@@ -1,10 +1,10 @@
-"""The panels: they show what stands in properties and on the node tree, and compute nothing."""
+"""The sidebar's tab: its main panel, and what the panels of all rooms share (sidebar.py)."""
 
 import bpy
 
-from . import lists, panels
+from . import main
 
-CLASSES = [*lists.CLASSES, *panels.CLASSES]
+CLASSES = main.CLASSES
 
 
 def register():

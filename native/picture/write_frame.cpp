@@ -37,16 +37,17 @@ OIIO::ImageSpec header(const FrameImages& images, const FrameOptions& options) {
   OIIO::ImageSpec spec(images.combined.cols, images.combined.rows, 0, colour);
   const auto add = [&](const std::string& layer, const char* channels, OIIO::TypeDesc type) {
     for (; *channels; ++channels) {
-      spec.channelnames.push_back(layer + "." + *channels);
+      spec.channelnames.push_back(layer + *channels);
       spec.channelformats.push_back(type);
     }
   };
-  add("Stillwater.Combined", "RGBA", colour);
-  add("Stillwater.Flow", "XYZ", OIIO::TypeFloat);
-  add("Stillwater.Matte", "V", colour);
+  add("", "RGBA", colour);
+  add("Stillwater.Combined.", "RGBA", colour);
+  add("Stillwater.Flow.", "XYZ", OIIO::TypeFloat);
+  add("Stillwater.Matte.", "V", colour);
   std::vector<std::string> names;
   for (const NamedImage& layer : images.layers) names.push_back(layer.name);
-  for (const std::string& name : layer_names(names)) add(name, "RGBA", colour);
+  for (const std::string& name : layer_names(names)) add(name + ".", "RGBA", colour);
   spec.nchannels = static_cast<int>(spec.channelnames.size());
   spec.attribute("compression", options.compression + (is_zip(options.compression) ? zip_level : ""));
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709.data());
@@ -61,12 +62,13 @@ class PackedRow {
   PackedRow(unsigned char* row, int pixels, std::size_t pixel_bytes, bool half)
       : row_(row), pixels_(pixels), pixel_bytes_(pixel_bytes), half_(half) {}
 
-  /// The next `channels` channels of each pixel, in the depth of colours.
-  void add_colours(const float* values, int channels) {
-    if (!half_) return add_floats(values, channels);
+  /// The next `channels` channels of each pixel, in the depth of colours; `copies` times one after the other.
+  void add_colours(const float* values, int channels, int copies = 1) {
+    for (int copy = 0; copy < copies && !half_; ++copy) add_floats(values, channels);
+    if (!half_) return;
     halves_.resize(static_cast<std::size_t>(pixels_) * channels);
     to_half(values, halves_.data(), halves_.size());
-    scatter(halves_.data(), channels * sizeof(std::uint16_t));
+    for (int copy = 0; copy < copies; ++copy) scatter(halves_.data(), channels * sizeof(std::uint16_t));
   }
 
   void add_floats(const float* values, int channels) { scatter(values, channels * sizeof(float)); }
@@ -89,11 +91,11 @@ class PackedRow {
 void pack(const FrameImages& images, int y, PackedRow& row) {
   const int width = images.combined.cols;
   std::vector<float> values(static_cast<std::size_t>(width) * 4);
-  const auto add_image = [&](const Rgba& image) {
+  const auto add_image = [&](const Rgba& image, int copies) {
     display_to_scene(image[y]->val, values.data(), width);
-    row.add_colours(values.data(), 4);
+    row.add_colours(values.data(), 4, copies);
   };
-  add_image(images.combined);
+  add_image(images.combined, 2);
 
   std::vector<float> flow(static_cast<std::size_t>(width) * 3, 0.0f);
   for (int x = 0; x < width && !images.flow.empty(); ++x) {
@@ -105,7 +107,7 @@ void pack(const FrameImages& images, int y, PackedRow& row) {
 
   const std::vector<float> none(images.matte.empty() ? width : 0, 0.0f);
   row.add_colours(images.matte.empty() ? none.data() : images.matte[y], 1);
-  for (const NamedImage& layer : images.layers) add_image(layer.image);
+  for (const NamedImage& layer : images.layers) add_image(layer.image, 1);
 }
 
 int rows_at_a_time(int height, std::size_t row_bytes) {

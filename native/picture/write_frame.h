@@ -7,11 +7,13 @@
 
 /// A finished frame to one OpenEXR file, scene-linear Rec.709, premultiplied:
 ///
-///     Stillwater.Combined.R/G/B/A   half or float
-///     Stillwater.Flow.X/Y/Z         float, mantissa rounded to 12 bits; Z = 0, because Blender 5.2 misreads two
-///     channels Stillwater.Matte.V            half or float NAME.R/G/B/A                  half or float, each layer
-///     that is given
+///     R/G/B/A                       half or float: the picture, for all that looks for plain channels (OpenCV, viewers)
+///     Stillwater.Combined.R/G/B/A   the same again, as a pass of Blender's Image node
+///     Stillwater.Flow.X/Y/Z         float, mantissa rounded to 12 bits; Z = 0: Blender 5.2 misreads two channels
+///     Stillwater.Matte.V            half or float
+///     NAME.R/G/B/A                  half or float, each layer that is given
 ///
+/// The second copy costs few bytes under zip: it lies within deflate's window of the first.
 /// The bytes depend on the arguments alone, not on the number of threads. A value beyond a half's largest (65504) is
 /// written as that.
 namespace stillwater {

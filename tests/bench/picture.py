@@ -86,7 +86,7 @@ def rows() -> Iterator[Row]:
         program = built(folder)
         references = []
         for i, given in enumerate((flow, engine.round_mantissa(flow))):
-            channels = np.concatenate([scene, given, np.zeros_like(given[..., :1]), matte[..., None]], 2)
+            channels = np.concatenate([scene, scene, given, np.zeros_like(given[..., :1]), matte[..., None]], 2)
             channels.astype(np.float32).tofile(folder / f"{i}.raw")
             command = [program, str(WIDTH), str(HEIGHT), folder / f"{i}.raw", folder / f"{i}.exr"]
             references.append(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True))

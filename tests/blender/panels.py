@@ -43,6 +43,13 @@ class Recorder:
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
 
 
+def registered(editor: str) -> list[type]:
+    """Our panels of one editor ("view_3d" or "node_editor"), in the order in which they are drawn."""
+    ours = [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith(f"STILLWATER_PT_{editor}")]
+    known = [cls for cls in ours if cls.is_registered]
+    return sorted(known, key=lambda cls: (hasattr(cls, "bl_parent_id"), getattr(cls, "bl_order", 0)))
+
+
 def draw(panel) -> Recorder:
     """What a panel draws in the present context."""
     recorder = Recorder()

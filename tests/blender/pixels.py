@@ -11,7 +11,7 @@ import OpenImageIO as oiio  # noqa: E402  Blender's own
 
 PACKAGE = "bl_ext.user_default.stillwater"
 PASSES = {"Combined": "RGBA", "Flow": "XYZ", "Matte": "V"}
-CHANNELS = [f"Stillwater.{name}.{part}" for name, parts in PASSES.items() for part in parts]
+CHANNELS = [*"RGBA", *(f"Stillwater.{name}.{part}" for name, parts in PASSES.items() for part in parts)]
 KINDS = {"Image": "RGBA", "Alpha": "FLOAT", "Flow": "VECTOR", "Matte": "FLOAT"}
 WIDTH, HEIGHT = 16, 8
 
@@ -23,9 +23,10 @@ def write_frame(path: Path, seed: int) -> dict[str, np.ndarray]:
     pixels[..., :3] *= 2 * pixels[..., 3:4]  # premultiplied, some above 1
     pixels[..., 4:6] = noise.uniform(1, 30, (HEIGHT, WIDTH, 2)) * noise.choice([-1, 1], (HEIGHT, WIDTH, 2))
     pixels[..., 6] = 0
-    spec = oiio.ImageSpec(WIDTH, HEIGHT, 8, "float")
+    pixels = np.concatenate([1 - pixels[..., :4], pixels], 2)  # not the pass: the node must show that one
+    spec = oiio.ImageSpec(WIDTH, HEIGHT, 12, "float")
     spec.channelnames = CHANNELS
-    spec.channelformats = ("half",) * 4 + ("float",) * 3 + ("half",)
+    spec.channelformats = ("half",) * 8 + ("float",) * 3 + ("half",)
     path.parent.mkdir(parents=True, exist_ok=True)
     file = oiio.ImageOutput.create(str(path))
     assert file.open(str(path), spec) and file.write_image(pixels) and file.close(), file.geterror()

@@ -52,7 +52,7 @@ def test_the_zip_holds_the_wheels_of_all_pythons_and_no_others(folder):
     assert sorted(Path(path).name for path in manifest["wheels"]) == carried
     assert (manifest["id"], manifest["version"]) == ("stillwater", VERSION)
     assert manifest["license"] == ["SPDX:GPL-3.0-or-later"] and manifest["blender_version_min"] == "4.5.0"
-    assert {"__init__.py", "LICENSE", "ui/panels.py"} <= set(names)
+    assert {"__init__.py", "LICENSE", "ui/sidebar.py"} <= set(names)
     assert not [name for name in names if "build_zip" in name or "__pycache__" in name]
 
 

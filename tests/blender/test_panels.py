@@ -4,23 +4,22 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from panels import Recorder, draw
+from panels import Recorder, draw, registered
 
 
 @pytest.fixture
 def panel(extension):
     """Draws all panels of one editor and returns what they show."""
 
-    def show(name="STILLWATER_PT_view_3d"):
-        panels = [cls for cls in extension.ui.panels.CLASSES if cls.__name__.startswith(name)]
-        shown = [draw(cls) for cls in panels if not hasattr(cls, "poll") or cls.poll(bpy.context)]
+    def show(editor="view_3d"):
+        shown = [draw(cls) for cls in registered(editor) if not hasattr(cls, "poll") or cls.poll(bpy.context)]
         kinds = ("texts", "properties", "operators")
         return {kind: [entry for part in shown for entry in getattr(part, kind)] for kind in kinds}
 
     return show
 
 
-@pytest.mark.parametrize("editor", ["STILLWATER_PT_view_3d", "STILLWATER_PT_node_editor"])
+@pytest.mark.parametrize("editor", ["view_3d", "node_editor"])
 def test_an_empty_scene_offers_a_picture(scene, panel, editor):
     shown = panel(editor)
     assert shown["operators"] == ["stillwater.add_picture", "stillwater.load_recipe"]
@@ -30,7 +29,12 @@ def test_an_empty_scene_offers_a_picture(scene, panel, editor):
 @pytest.mark.parametrize("tree, shown", [("CompositorNodeTree", True), ("ShaderNodeTree", False)])
 def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, tree, shown):
     editor = SimpleNamespace(scene=scene, space_data=SimpleNamespace(tree_type=tree))
-    assert {cls.poll(editor) for cls in extension.ui.panels.CLASSES} == {shown}
+    assert {cls.poll(editor) for cls in registered("node_editor")} == {shown}
+
+
+def test_panels_stand_in_the_order_of_the_work(scene):
+    labels = [cls.bl_label for cls in registered("view_3d")]
+    assert labels == ["Stillwater", "Layers", "Wind", "View", "Bake", "Output"]
 
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])

@@ -15,8 +15,9 @@ from stillwater.recipe.picture import Follows
 from stillwater.recipe.stochastic import Bob, Drift, Ripple, Sway
 
 # Property group -> the recipe's class, and the properties that stand for its fields under another name.
+OURS = {"id", "name", "tree", "plane", "camera", "strokes", "picture_size", "active_layer"}  # of a picture, in Blender only
 GROUPS = {
-    "STILLWATER_PG_picture": (Recipe, {"id", "name", "tree", "active_layer"}),
+    "STILLWATER_PG_picture": (Recipe, OURS),
     "STILLWATER_PG_wind": (Wind, set()),
     "STILLWATER_PG_view": (View, {"use_horizon", "horizon_start", "horizon_end"}),
     "STILLWATER_PG_output": (Output, set()),

@@ -49,7 +49,7 @@ def test_registering_twice_leaves_nothing_behind(extension, enabled):
 
 def test_an_error_while_registering_is_raised_and_leaves_nothing_behind(extension, enabled, monkeypatch):
     addon_utils.disable(PACKAGE)
-    monkeypatch.setattr(extension.ui, "register", lambda: 1 / 0)
+    monkeypatch.setattr(extension.pictures, "register", lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         extension.register()
     assert [len(kind) for kind in traces()] == [0, 0, 0, 0]
@@ -88,7 +88,7 @@ def test_without_its_engine_it_registers_and_says_why(extension, without_engine,
 
 
 def test_without_its_engine_the_panel_says_why(extension, without_engine, scene):
-    from panels import draw
+    from panels import draw, registered
 
-    said = " ".join(draw(extension.ui.panels.CLASSES[0]).texts)
+    said = " ".join(draw(registered("view_3d")[0]).texts)
     assert "The engine can't be loaded: libopencv_core.so.406: cannot open shared object file" in said

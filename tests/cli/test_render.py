@@ -12,6 +12,7 @@ import tempfile
 import time
 
 import pytest
+from PIL import Image
 from stillwater import _stillwater as engine
 
 ROOT = os.name == "posix" and os.geteuid() == 0
@@ -152,6 +153,31 @@ def test_a_signal_ends_it_at_once(start, long_scene, tmp_path, number, code, eve
         assert leavings(tmp_path / "frames") == []
         for path in (tmp_path / "frames").iterdir():
             engine.read_frame(str(path))
+
+
+@pytest.fixture
+def huge_scene(scene, tmp_path):
+    """The scene at 60 times its size: cutting its layers takes seconds."""
+    path = scene(lambda recipe: recipe["view"].update(horizon=[[0, 1020], [2880, 1080]]))
+    for name in ("picture.png", "labels.png", "tree.png"):
+        with Image.open(tmp_path / name) as image:
+            large = image.resize((60 * image.width, 60 * image.height), Image.Resampling.NEAREST)
+        large.save(tmp_path / name)
+    return path
+
+
+@pytest.mark.parametrize("moment", [0.05, 0.4, 1.0])
+def test_a_signal_ends_it_also_in_the_middle_of_cutting_layers(start, command, huge_scene, tmp_path, moment):
+    process = start("render", huge_scene, "--progress", "json", "--frames", "1")
+    wait_for(process, "preparing")
+    time.sleep(moment)
+    assert process.poll() is None, "it was over before it could be asked to end"
+    sent = time.monotonic()
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(10) == 143
+    assert time.monotonic() - sent < 0.2
+    assert not [path for path in tmp_path.rglob("*") if path.name.startswith(".") and path.is_file()]
+    assert not list(tmp_path.rglob("frame_*.exr"))
 
 
 def test_it_ends_with_its_parent_where_asked_to(start, long_scene):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from stillwater import _stillwater as engine
+from stillwater.recipe import View as RecipeView
 
 SIZE = (640, 360)
 CENTRE = np.array(SIZE) / 2
@@ -23,6 +24,12 @@ def below(horizon, distance):
     down = np.array([-along[1], along[0]])
     middle = a + along * np.dot(CENTRE - a, along)
     return [tuple(middle + down * distance + along * beside) for beside in (-250, 0, 170)]
+
+
+def test_names_and_defaults_are_the_recipe_s():
+    usual = engine.View()
+    for name, default in zip(RecipeView.__struct_fields__, RecipeView.__struct_defaults__, strict=True):
+        assert getattr(usual, name) == default, name
 
 
 @pytest.mark.parametrize("horizon", HORIZONS.values(), ids=HORIZONS)

@@ -62,7 +62,8 @@ def linear(premultiplied):
 
 
 def expected_formats(colour):
-    formats = {f"Stillwater.Combined.{c}": colour for c in "RGBA"} | {f"Stillwater.Flow.{c}": "float" for c in "XYZ"}
+    formats = {f"{layer}{c}": colour for layer in ("", "Stillwater.Combined.") for c in "RGBA"}
+    formats |= {f"Stillwater.Flow.{c}": "float" for c in "XYZ"}
     return formats | {"Stillwater.Matte.V": colour} | {f"tree.{c}": colour for c in "RGBA"}
 
 
@@ -84,10 +85,10 @@ def test_values_in_a_half_file(tmp_path):
     path = tmp_path / "frame.exr"
     write(path)
     planes = planes_of(path, list(expected_formats("half")))
-    for layer, image in (("Stillwater.Combined", IMAGE), ("tree", LAYER)):
+    for layer, image in (("", IMAGE), ("Stillwater.Combined.", IMAGE), ("tree.", LAYER)):
         for c, name in enumerate("RGBA"):
             np.testing.assert_allclose(
-                planes[f"{layer}.{name}"], linear(image)[..., c], rtol=2**-11 + 1e-5, atol=2**-24
+                planes[f"{layer}{name}"], linear(image)[..., c], rtol=2**-11 + 1e-5, atol=2**-24
             )
     for c, name in enumerate("XY"):
         flow = planes[f"Stillwater.Flow.{name}"]
@@ -95,6 +96,35 @@ def test_values_in_a_half_file(tmp_path):
         assert not (flow.view(np.uint32) & 0x7FF).any()
     assert not planes["Stillwater.Flow.Z"].any()
     np.testing.assert_array_equal(planes["Stillwater.Matte.V"], MATTE.astype(np.float16))
+
+
+@pytest.fixture(scope="module")
+def opencv(tmp_path_factory):
+    """A program that reads a file with OpenCV's imread alone and writes its floats out."""
+    source, program = tmp_path_factory.mktemp("opencv") / "read.cpp", tmp_path_factory.mktemp("opencv") / "read"
+    source.write_text("""
+        #include <cstdio>
+        #include <opencv2/imgcodecs.hpp>
+        int main(int, char** argv) {
+          const cv::Mat image = cv::imread(argv[1], cv::IMREAD_UNCHANGED);
+          if (image.type() != CV_32FC4) return 1;
+          return std::fwrite(image.data, image.elemSize(), image.total(), stdout) == image.total() ? 0 : 1;
+        }""")
+    flags = subprocess.run(["pkg-config", "--cflags", "opencv4"], capture_output=True, text=True, timeout=60).stdout
+    command = ["g++", "-std=c++17", *flags.split(), str(source), "-o", str(program)]
+    subprocess.run([*command, "-lopencv_imgcodecs", "-lopencv_core"], timeout=100, check=True)
+    return program
+
+
+@pytest.mark.parametrize("half", [True, False])
+def test_opencv_reads_the_picture(tmp_path, opencv, half):
+    path = tmp_path / "frame.exr"
+    write(path, half=half)
+    environment = {**os.environ, "OPENCV_IO_ENABLE_OPENEXR": "1"}
+    read = subprocess.run([opencv, str(path)], capture_output=True, timeout=60, env=environment, check=True).stdout
+    blue, green, red, alpha = np.moveaxis(np.frombuffer(read, np.float32).reshape(IMAGE.shape), 2, 0)
+    tolerance = 2**-11 + 1e-5 if half else 1e-5
+    np.testing.assert_allclose(np.stack([red, green, blue, alpha], 2), linear(IMAGE), rtol=tolerance, atol=2**-24)
 
 
 @pytest.mark.parametrize("half", [True, False])

@@ -168,7 +168,7 @@ def test_layers_of_their_own(scene, tmp_path):
 
     run(scene(change), frames=(1, 1))
     names = engine.inspect_picture(str(tmp_path / "frames" / FRAMES[0])).channel_names
-    assert {name.split(".")[0] for name in names} == {"Stillwater", "boat", "reflection", "sea", "clouds"}
+    assert {name.split(".")[0] for name in names} == {*"RGBA", "Stillwater", "boat", "reflection", "sea", "clouds"}
 
 
 @pytest.mark.parametrize(

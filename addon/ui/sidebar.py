@@ -1,0 +1,62 @@
+"""What the panels share. Each room draws its own, in the 3D viewport's sidebar and in the compositor's.
+
+    class _Layers(sidebar.OfPicture): ...
+    CLASSES = sidebar.in_both_editors("layers", _Layers)
+"""
+
+import textwrap
+
+import bpy
+
+EDITORS = ("VIEW_3D", "NODE_EDITOR")
+# Of a sidebar at scale 1, pixels: what its tabs and an icon take, a character on average, its width by default.
+BESIDE, CHARACTER, WIDTH = 85, 6.3, 280
+
+
+class Part:
+    """A panel of the sidebar's Stillwater tab."""
+
+    bl_category = "Stillwater"
+    bl_region_type = "UI"
+
+    @classmethod
+    def poll(cls, context):
+        """In node editors only where they show a compositor."""
+        return getattr(context.space_data, "tree_type", "CompositorNodeTree") == "CompositorNodeTree"
+
+
+class OfPicture(Part):
+    """A panel about the active picture, closed until it is asked for."""
+
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.scene.stillwater.active() is not None
+
+
+def in_both_editors(name: str, part: type) -> list[type]:
+    """The panel STILLWATER_PT_EDITOR_NAME of each editor, drawn by `part`; without a name the one that holds the others."""
+    return [_panel(editor, name, part) for editor in EDITORS]
+
+
+def _panel(editor: str, name: str, part: type) -> type:
+    parent = f"STILLWATER_PT_{editor.lower()}"
+    place = {"bl_space_type": editor, **({"bl_parent_id": parent} if name else {})}
+    return type(f"{parent}_{name}" if name else parent, (part, bpy.types.Panel), place)
+
+
+def say(context, layout, sentence: str, icon: str) -> None:
+    """A sentence over as many lines as the sidebar's width asks for; Blender would cut it off."""
+    width = context.region.width / context.preferences.system.ui_scale if context.region else WIDTH
+    column = layout.column(align=True)
+    for line in textwrap.wrap(sentence, max(12, int((width - BESIDE) / CHARACTER))):
+        column.label(text=line, icon=icon)
+        icon = "BLANK1"
+
+
+def draw_all(layout, group) -> None:
+    layout.use_property_split = True
+    column = layout.column()
+    for name in type(group).__annotations__:
+        column.prop(group, name)
