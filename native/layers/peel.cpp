@@ -61,8 +61,17 @@ Rgba filled(const Rgba& colour, const Confidence& confidence) {
   return nothing ? colour.clone() : push_pull(known);
 }
 
+// A copy, of the picture's size.
+Plane whole_matte(const std::variant<Plane, MatteInBox>& matte, const cv::Size& picture) {
+  if (const Plane* whole = std::get_if<Plane>(&matte)) return whole->clone();
+  const auto& [pixels, box] = std::get<MatteInBox>(matte);
+  Plane whole = Plane::zeros(picture);
+  if (!box.empty()) pixels.copyTo(whole(box));
+  return whole;
+}
+
 Plane softened(const Plane& matte, double feather) {
-  if (feather < 1e-6) return matte.clone();  // of a narrower Gaussian OpenCV can't make a kernel
+  if (feather < 1e-6) return matte;  // of a narrower Gaussian OpenCV can't make a kernel
   Plane soft;
   cv::GaussianBlur(matte, soft, cv::Size(), feather / 2, feather / 2, cv::BORDER_REPLICATE);
   return soft;
@@ -91,7 +100,7 @@ class Peeling {
 
   // Takes one layer off, and leaves what lies behind it.
   LayerImage take(const PeelLayer& layer) {
-    Plane matte = softened(*layer.matte, layer.feather);
+    Plane matte = softened(whole_matte(*layer.matte, left_.size()), layer.feather);
     complete(matte, hidden_);
     const cv::Rect box = surroundings(matte);
     if (box.empty()) return {};
@@ -175,12 +184,19 @@ class Peeling {
   Plane solid_;   // 0 where nothing is behind them
 };
 
+void check_matte(const std::string& name, const std::variant<Plane, MatteInBox>& matte, const Rgba& picture) {
+  if (const Plane* whole = std::get_if<Plane>(&matte)) return check::same_size(name, *whole, "the picture", picture);
+  const auto& [pixels, box] = std::get<MatteInBox>(matte);
+  if ((box & cv::Rect(cv::Point(), picture.size())) != box || pixels.size() != box.size())
+    throw BadInput(name + ": its box does not fit its pixels and the picture");
+}
+
 void check_layers(const Rgba& picture, const std::vector<PeelLayer>& layers) {
   check::not_empty("picture", picture);
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string place = "layers[" + std::to_string(i) + "]";
     check::in_range(place + ".feather", layers[i].feather, 0, 1000, "px");
-    if (layers[i].matte) check::same_size(place + ".matte", *layers[i].matte, "the picture", picture);
+    if (layers[i].matte) check_matte(place + ".matte", *layers[i].matte, picture);
     else if (i + 1 < layers.size()) throw BadInput(place + ".matte: missing (only the last layer needs none)");
     if (const Rgba* painted = std::get_if<Rgba>(&layers[i].fill))
       check::same_size(place + ".fill", *painted, "the picture", picture);
