@@ -58,7 +58,9 @@ Rgba filled(const Rgba& colour, const Confidence& confidence) {
     known(y, x) = {pixel[0] * share, pixel[1] * share, pixel[2] * share, share};
   });
   const bool nothing = std::all_of(known.begin(), known.end(), [](const cv::Vec4f& pixel) { return pixel[3] <= 0; });
-  return nothing ? colour.clone() : push_pull(known);
+  if (nothing) return colour.clone();
+  fill_by_push_pull(known);
+  return known;
 }
 
 // A copy, of the picture's size.
@@ -83,11 +85,15 @@ void complete(Plane& matte, const Plane& hidden) {
   if (box.empty()) return;
   Plane part = matte(box);
   const Plane cover = hidden(box);
-  Rgba seen(part.size());
-  each_pixel(part.size(), [&](int y, int x) { seen(y, x) = cv::Vec4f::all(part(y, x)); });
-  const Rgba whole = filled(seen, [&](int y, int x) { return purity(cover(y, x)); });
+  cv::Mat_<cv::Vec2f> known(part.size());
   each_pixel(part.size(), [&](int y, int x) {
-    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(whole(y, x)[0])), 0.0f, 1.0f);
+    const float share = purity(cover(y, x));
+    known(y, x) = {part(y, x) * share, share};
+  });
+  if (std::all_of(known.begin(), known.end(), [](const cv::Vec2f& pixel) { return pixel[1] <= 0; })) return;
+  fill_by_push_pull(known);
+  each_pixel(part.size(), [&](int y, int x) {
+    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(known(y, x)[0])), 0.0f, 1.0f);
   });
 }
 
