@@ -150,13 +150,14 @@ def _frames(job: Job, movie: Movie | None, claim: Lock) -> Generator[Event, None
         movie.begin(job.size, job.recipe.fps)
     for frame in range(job.first, job.last + 1):
         claim.beat()
-        start = time.perf_counter()
+        start, made = time.perf_counter(), None  # the frame before is given up first
         key = job.keys.of(frame)
         kept = not job.order.fresh and job.stands(frame, key)
         if not kept:
             if renderer is None:
                 yield from job.prepare(claim)
                 renderer = Renderer(job.timeline, job.stack, job.sources.size, job.scale)
+                job.stack = None  # the renderer has a copy
                 start = time.perf_counter()
             made = renderer.frame(frame)
             job.write(frame, made, key)
