@@ -40,8 +40,8 @@ def from_text(picture, text: str, at: int) -> list[str]:
     """
     layers, names = _read(text)
     before, lost = len(picture.layers), []
-    ids = {said["id"]: arrange.add_layer(picture, said["name"]).id for said in layers}
     try:
+        ids = {said["id"]: arrange.add_layer(picture, said["name"]).id for said in layers}
         for index, said in enumerate(layers, before):
             _each_path(said["values"], _relative)
             plain.set_values(picture.layers[index], said["values"])
@@ -49,7 +49,7 @@ def from_text(picture, text: str, at: int) -> list[str]:
             unread = []
             curves.from_data(picture, index, said, ids, lost=unread.append)
             lost += [f"{picture.layers[index].name}: a driver reads {what}" for what in unread]
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
+    except (KeyError, TypeError, AttributeError, ValueError, RuntimeError) as error:
         arrange.remove_layers(picture, list(range(before, len(picture.layers))))
         raise ValueError(f"The copied layers can't be read: {error}") from error
     count = len(picture.layers)

@@ -63,7 +63,7 @@ def _driver(driver, picture) -> dict:
 
 def _target(variable, target, picture) -> dict:
     """What a driver's variable reads, in words that hold in another picture and file."""
-    read = {**_fields(target, TARGET), "data_path": target.data_path}
+    read = {**_fields(target, TARGET), "id_type": target.id_type, "data_path": target.data_path}
     if target.id == picture.id_data:
         found, whole = LAYER.fullmatch(target.data_path), f"{picture.path_from_id()}."
         if found and found["picture"] == picture.path_from_id() and int(found["layer"]) < len(picture.layers):
@@ -74,7 +74,7 @@ def _target(variable, target, picture) -> dict:
         return {**read, "of": "scene"}
     if variable.type == "CONTEXT_PROP" or target.id is None:
         return {**read, "of": "context"}
-    return {**read, "of": "datablock", "id_type": target.id_type, "datablock": plain.address(target.id)}
+    return {**read, "of": "datablock", "datablock": plain.address(target.id)}
 
 
 def fill(curve, data: dict, picture, ids: dict[str, str], lost: Lost) -> None:
@@ -117,7 +117,7 @@ def _fill_driver(driver, said: dict, picture, ids: dict[str, str], lost: Lost) -
 
 def _fill_target(variable, target, read: dict, picture, ids: dict[str, str], lost: Lost) -> None:
     if variable.type == "SINGLE_PROP":
-        target.id_type = read.get("id_type", "SCENE")
+        target.id_type = read["id_type"]
     for name in TARGET:
         setattr(target, name, read[name])
     scene, path, here = picture.id_data, read["data_path"], picture.path_from_id()

@@ -139,6 +139,7 @@ def broken(change):
         (lambda said: said["layers"][2]["values"]["motion"].update(type="swim"), "type: 'swim' is not a value"),
         (lambda said: said["layers"][2]["values"].update(opacity="x"), "can't be read: opacity: 'x' is not a value"),
         (lambda said: said["layers"][1].pop("keys"), "The copied layers can't be read: 'keys'"),
+        (lambda said: said["layers"][1].pop("name"), "The copied layers can't be read: 'name'"),
         (lambda said: said["layers"][1].update(values=[]), "The copied layers can't be read"),
     ],
 )
