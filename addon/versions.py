@@ -32,9 +32,10 @@ def use_compositor(scene) -> None:
 
 
 def drop_compositor(scene) -> None:
-    """Takes the compositor away from `scene`, where nothing but its output is left in it."""
+    """Takes the compositor away from `scene`, where nothing but unconnected outputs are left in it."""
     tree = compositor_tree(scene)
-    if tree is None or any(node.bl_idname not in ("CompositorNodeComposite", "NodeGroupOutput") for node in tree.nodes):
+    outputs = ("CompositorNodeComposite", "NodeGroupOutput", "CompositorNodeViewer")
+    if tree is None or any(node.bl_idname not in outputs for node in tree.nodes):
         return
     if not hasattr(scene, "compositing_node_group"):
         tree.nodes.clear()

@@ -49,8 +49,8 @@ def start(scene, picture, fresh: bool = False):
     tree = node.claim(scene, picture)
     if tree.session_uid in _jobs:
         raise ValueError(f"{picture.name}: is being baked already")
-    image.take_path(picture)
-    image.check_size(picture)
+    image.take_over(picture)
+    image.check(picture)
     command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent"]
     command += chosen.worker_options()
     command += ["--fresh"] if fresh else []

@@ -163,16 +163,32 @@ def is_free(scene) -> bool:
     if top is None:
         return True
     sources = [link.from_node for link in versions.output_socket(top).links]
-    groups = [node.node_tree for node in sources if node.bl_idname == "CompositorNodeGroup" and node.node_tree]
-    ours = [tree for tree in groups if tree.stillwater.picture]
-    return len(ours) == len([node for node in sources if node.bl_idname != "CompositorNodeRLayers"])
+    return all(node.bl_idname == "CompositorNodeRLayers" or _is_ours(node) for node in sources)
 
 
 def wire(scene, tree) -> None:
-    """Makes the scene's render the tree's Image; its alpha is in it. A node that shows it already is used."""
+    """Makes the scene's render the tree's Image; its alpha is in it. A node that shows it already is used.
+
+    A compositor that is new gets a Viewer too, for the backdrop; one that showed another picture shows this.
+    """
+    top = versions.compositor_tree(scene)
+    untouched = top is None or not top.nodes
     node = next(iter(nodes_of(scene, tree.stillwater.picture)), None) or add_node(scene, tree)
     top = versions.compositor_tree(scene)
     output = versions.output_socket(top)
     node.location = (output.node.location.x - 300, output.node.location.y)
     top.links.new(node.outputs["Image"], output)
+    for viewer in _viewers_of_ours(top) or ([top.nodes.new("CompositorNodeViewer")] if untouched else []):
+        viewer.location = (output.node.location.x, output.node.location.y - 150)
+        top.links.new(node.outputs["Image"], viewer.inputs["Image"])
     versions.use_compositor(scene)
+
+
+def _viewers_of_ours(top) -> list:
+    """The nodes that show a picture of ours as the backdrop."""
+    viewers = [node for node in top.nodes if node.bl_idname == "CompositorNodeViewer" and node.inputs["Image"].links]
+    return [viewer for viewer in viewers if _is_ours(viewer.inputs["Image"].links[0].from_node)]
+
+
+def _is_ours(node) -> bool:
+    return node.bl_idname == "CompositorNodeGroup" and node.node_tree is not None and bool(node.node_tree.stillwater.picture)

@@ -105,7 +105,7 @@ class STILLWATER_OT_reload_picture(bpy.types.Operator):
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
-        image.take_path(picture)
+        image.take_over(picture)
         path = bpy.path.abspath(picture.picture)
         return _told(self, context, path, rpt_("Read again: {file}").format(file=os.path.basename(path)))
 

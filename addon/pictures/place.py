@@ -49,7 +49,7 @@ def parts(picture) -> list:
 def is_whole(scene, picture) -> bool:
     """Whether all of it is there, in this scene."""
     there = parts(picture)
-    return len(there) == 3 and all(item.name in scene.objects for item in there)
+    return picture.image is not None and len(there) == 3 and all(item.name in scene.objects for item in there)
 
 
 def fit_camera(picture) -> None:

@@ -42,7 +42,7 @@ def before_save(filepath, *_):
         return
     _moved = os.path.dirname(bpy.data.filepath), os.path.dirname(os.path.abspath(filepath))
     for picture in own_pictures():
-        image.take_path(picture)
+        image.take_over(picture)
     if not _moved[0]:
         _settle(filepath)
     _rebase(*_moved)
@@ -107,7 +107,7 @@ def after_load(*_):
     for scene in own_scenes():
         migrate.upgrade(scene)
     for picture in own_pictures():
-        image.take_path(picture)
+        image.take_over(picture)
 
 
 @persistent
@@ -132,7 +132,7 @@ def _take_in(scene, there: str, here: str, others: list) -> None:
             paths.rebase(picture, there, here)
     migrate.upgrade(scene)
     for picture in scene.stillwater.pictures:
-        image.take_path(picture)
+        image.take_over(picture)
         if any(other.id == picture.id for scene in others for other in scene.stillwater.pictures):
             picture.id = names.new_id()
             if picture.tree is not None:

@@ -1,6 +1,6 @@
 """The image datablock in which plane and node show a picture's file: it follows the picture's path and colour space.
 
-Blender's own tools (relative paths, Find Missing Files) know only the datablock; `take_path` learns from it.
+Blender's own tools (relative paths, Find Missing Files) know only the datablock; `take_over` learns from it.
 """
 
 import contextlib
@@ -48,10 +48,17 @@ def load(path: str):
     raise ValueError(problem.format(name=os.path.basename(path), size=size, largest=LARGEST_SIDE))
 
 
-def check_size(picture) -> None:
-    """Throws ValueError where the picture's file is missing, or came to be of another size than the picture has."""
+def check(picture) -> None:
+    """Throws ValueError, with what to do, where the engine would see another picture than the scene shows.
+
+    The file is missing, packed, or came to be of another size; its image is in a colour space that the engine has not.
+    """
     if picture.image is None:
         return
+    space = picture.image.colorspace_settings.name
+    if space != _space(picture) and _space(picture) in _spaces(picture.image):
+        sentence = rpt_("{name}: its image is in {space}, which can't be animated; choose a Color Space under Picture")
+        raise ValueError(sentence.format(name=picture.name, space=space))
     path = bpy.path.abspath(picture.picture)
     if picture.image.packed_file is not None and not os.path.isfile(path):
         sentence = rpt_("{name}: its picture is packed into the .blend; unpack it (File > External Data) to bake")
@@ -81,18 +88,33 @@ def follow(picture, context=None) -> None:
         return
     if image.filepath != picture.picture:
         image.filepath = picture.picture
-    space = picture.colour_space
-    if space == "auto":
-        space = "linear" if image.file_format in LINEAR_FILES else "srgb"
-    known = image.colorspace_settings.bl_rna.properties["name"].enum_items
-    if image.colorspace_settings.name != SPACES[space] and SPACES[space] in known:  # a studio's OCIO may lack it
-        image.colorspace_settings.name = SPACES[space]
+    if image.colorspace_settings.name != _space(picture) and _space(picture) in _spaces(image):
+        image.colorspace_settings.name = _space(picture)
 
 
-def take_path(picture) -> None:
-    """Takes over the image's path where Blender's own tools gave it another that is there; notes a missing file."""
-    if picture.image is not None and picture.image.source == "FILE":
-        theirs = picture.image.filepath
-        if theirs != picture.picture and os.path.isfile(bpy.path.abspath(theirs)):
-            picture.picture = theirs
+def take_over(picture) -> None:
+    """Takes over what was changed on the image: its path where that leads to a file, its colour space.
+
+    Notes whether the file is missing.
+    """
+    image = picture.image
+    if image is not None and image.source == "FILE":
+        if image.filepath != picture.picture and os.path.isfile(bpy.path.abspath(image.filepath)):
+            picture.picture = image.filepath
+        if image.colorspace_settings.name != _space(picture):
+            named = {name: space for space, name in SPACES.items()}
+            if image.colorspace_settings.name in named:
+                picture.colour_space = named[image.colorspace_settings.name]
     picture.missing = bool(picture.picture) and not os.path.isfile(bpy.path.abspath(picture.picture))
+
+
+def _space(picture) -> str:
+    """Blender's name of the picture's colour space."""
+    if picture.colour_space == "auto":
+        return SPACES["linear" if picture.image.file_format in LINEAR_FILES else "srgb"]
+    return SPACES[picture.colour_space]
+
+
+def _spaces(image) -> list[str]:
+    """Those that Blender knows: a studio's own configuration may lack any."""
+    return image.colorspace_settings.bl_rna.properties["name"].enum_items.keys()

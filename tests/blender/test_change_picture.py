@@ -171,3 +171,34 @@ def test_the_recipe_is_of_the_new_size(extension, scene, picture, path, tmp_path
         bpy.ops.stillwater.bake()
     bpy.ops.stillwater.reload_picture()
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
+
+
+def test_a_colour_space_chosen_on_the_image_counts(extension, picture):
+    picture.image.colorspace_settings.name = "Linear Rec.709"
+    extension.properties.image.take_over(picture)
+    assert picture.colour_space == "linear"
+    picture.image.colorspace_settings.name = "sRGB"
+    extension.properties.image.take_over(picture)
+    assert picture.colour_space == "srgb"
+
+
+def test_a_colour_space_that_the_engine_has_not_is_said(extension, scene, picture, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    picture.image.colorspace_settings.name = "ACEScg"
+    with pytest.raises(RuntimeError, match="lake: its image is in ACEScg, which can't be animated; choose a Color Space"):
+        bpy.ops.stillwater.bake()
+    picture.colour_space = "linear"
+    assert picture.image.colorspace_settings.name == "Linear Rec.709" and bpy.ops.stillwater.bake() == {"FINISHED"}
+
+
+def test_an_image_that_was_removed_is_read_again(scene, picture):
+    bpy.data.images.remove(picture.image)
+    bpy.ops.stillwater.show_picture("EXEC_DEFAULT", True)
+    assert tuple(picture.image.size) == (WIDTH, HEIGHT) and picture.plane.data == picture.image
+
+
+def test_a_reload_of_a_picture_in_another_colour_space_keeps_it(scene, picture, path):
+    picture.colour_space = "linear"
+    paint(path, seed=9)
+    bpy.ops.stillwater.reload_picture()
+    assert picture.image.colorspace_settings.name == "Linear Rec.709" and picture.colour_space == "linear"

@@ -209,6 +209,15 @@ def test_an_artist_s_compositor_stays_at_the_output(extension, scene, path):
     assert len(extension.compositor.tree.nodes_of(scene, scene.stillwater.active().id)) == 1
 
 
+def test_the_backdrop_shows_the_picture_that_is_shown(extension, scene, opened, tmp_path):
+    top = extension.versions.compositor_tree(scene)
+    viewer = next(node for node in top.nodes if node.bl_idname == "CompositorNodeViewer")
+    assert viewer.inputs["Image"].links[0].from_node.node_tree == opened.tree
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "pond.png")))
+    assert viewer.inputs["Image"].links[0].from_node.node_tree == scene.stillwater.active().tree
+    assert len([node for node in top.nodes if node.bl_idname == "CompositorNodeViewer"]) == 1
+
+
 def test_a_plain_3d_compositor_gives_way(extension, scene, path):
     top = extension.versions.compositor_tree(scene, create=True)
     layers = top.nodes.new("CompositorNodeRLayers")

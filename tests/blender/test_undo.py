@@ -2,6 +2,7 @@
 
 import bpy
 import pytest
+import recipes
 from pictures import paint
 
 
@@ -43,6 +44,7 @@ def two(scene, tmp_path):
 
 CALLS = {
     "open_picture": lambda folder: {"filepath": str(paint(folder / "sea.png")), "frame_rate": "25"},
+    "load_recipe": lambda folder: {"filepath": str(recipes.write(folder / "made", recipes.whole()))},
     "replace_picture": lambda folder: {"filepath": str(paint(folder / "sea.png", (24, 64)))},
     "reload_picture": lambda folder: {} if paint(folder / "lake.png", (96, 32)) else {},
     "show_picture": lambda folder: {"index": 0},
