@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import EnumProperty
 
+from .. import strokes
 from ..properties import arrange
 
 ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE", "drift": "OUTLINER_OB_VOLUME"}
@@ -44,6 +45,7 @@ class STILLWATER_OT_layer(bpy.types.Operator):
                 arrange.move_layer(picture, count, min(index, count))
                 to = index
             case "remove" if index < count:
+                strokes.remove_roles(picture, picture.layers[index].id)
                 arrange.remove_layer(picture, index)
                 to = index - 1 if index == count - 1 else index
             case "up" if 0 < index < count:

@@ -1,5 +1,6 @@
 """The list of layers, and what the active one is and does."""
 
+from .. import strokes
 from ..ui import sidebar
 
 
@@ -17,10 +18,11 @@ class _Layers(sidebar.OfPicture):
             column.operator("stillwater.layer", text="", icon=icon).action = action
         if picture.active_layer < len(picture.layers):
             self.layout.use_property_split = True
-            _draw_layer(self.layout, picture.layers[picture.active_layer])
+            layer = picture.layers[picture.active_layer]
+            _draw_layer(self.layout, layer, strokes.replaced(context.scene, picture, layer))
 
 
-def _draw_layer(layout, layer) -> None:
+def _draw_layer(layout, layer, drawn: set[str]) -> None:
     for name in ("opacity", "feather"):
         layout.prop(layer, name)
     layout.prop(layer.follows, "layer")
@@ -34,12 +36,15 @@ def _draw_layer(layout, layer) -> None:
         layout.prop(layer.fill, "file")
     layout.prop(layer.motion, "type")
     if layer.motion.type != "still":
-        _draw_motion(layout, getattr(layer.motion, layer.motion.type))
+        _draw_motion(layout, getattr(layer.motion, layer.motion.type), drawn)
 
 
-def _draw_motion(layout, motion) -> None:
+def _draw_motion(layout, motion, drawn: set[str]) -> None:
+    """`drawn`: the numbers that strokes stand for (panel Strokes)."""
     column = layout.column()
     for name in type(motion).__annotations__:
+        if name in drawn:
+            continue
         if name == "waterline":
             column.label(text=f"Waterline: {len(motion.waterline)} points")
         elif not name.endswith("_id"):

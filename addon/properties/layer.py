@@ -58,7 +58,7 @@ class STILLWATER_PG_layer(bpy.types.PropertyGroup):
     id: StringProperty(options={"HIDDEN"})
     name: StringProperty(
         name="Name", description="Unique in its picture", maxlen=200, options=set(),
-        update=lambda self, context: names.make_unique(self, names.picture_of(self).layers),
+        update=lambda self, context: names.rename_layer(self),
     )
     visible: BoolProperty(name="Visible", description="A hidden layer shows its fill", default=True, options=set())
     opacity: FloatProperty(name="Opacity", description="Of the layer (0..1)", default=1, min=0, max=1, subtype="FACTOR")

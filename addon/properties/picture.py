@@ -15,6 +15,7 @@ from bpy.props import (
 )
 
 from . import names
+from .drawing import STILLWATER_PG_drawing
 from .layer import STILLWATER_PG_layer
 from .motions import place, seed
 
@@ -118,6 +119,7 @@ class STILLWATER_PG_scene(bpy.types.PropertyGroup):
 
     pictures: CollectionProperty(type=STILLWATER_PG_picture)
     active_picture: IntProperty(min=0, options={"HIDDEN"})
+    drawing: PointerProperty(type=STILLWATER_PG_drawing)
 
     def active(self):
         """The picture that panels and operators mean; None where there is none."""

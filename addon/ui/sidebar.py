@@ -40,6 +40,11 @@ def in_both_editors(name: str, part: type) -> list[type]:
     return [_panel(editor, name, part) for editor in EDITORS]
 
 
+def in_viewport(name: str, part: type) -> list[type]:
+    """Its panel where only the 3D viewport has one."""
+    return [_panel("VIEW_3D", name, part)]
+
+
 def _panel(editor: str, name: str, part: type) -> type:
     parent = f"STILLWATER_PT_{editor.lower()}"
     place = {"bl_space_type": editor, **({"bl_parent_id": parent} if name else {})}
@@ -55,8 +60,9 @@ def say(context, layout, sentence: str, icon: str) -> None:
         icon = "BLANK1"
 
 
-def draw_all(layout, group) -> None:
+def draw_all(layout, group, but: set[str] = frozenset()) -> None:
     layout.use_property_split = True
     column = layout.column()
     for name in type(group).__annotations__:
-        column.prop(group, name)
+        if name not in but:
+            column.prop(group, name)
