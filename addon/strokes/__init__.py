@@ -4,7 +4,8 @@
     projection, read         where strokes lie in the picture
     lines, roles             what they say there, by their role
     gp_layers                which grease-pencil layer holds which layer's strokes of which role
-    draw_mode, operators     drawing, changing, deleting them
+    draw_mode, operators     drawing and deleting them
+    change                   giving them another role
     panel                    its buttons, and the tool in the toolbar
 
 Others use drawn(), replaced(), copy_roles() and remove_roles().

@@ -1,7 +1,8 @@
 """Into Blender's own draw mode for strokes of one role, and back. Drawing itself is Blender's.
 
 What is being drawn, and the tool settings to go back to, stand in the scene (properties/drawing.py). The artist may
-leave by Blender's own ways too (Tab, the mode menu, undo): a timer sees it and puts settings and status bar back.
+leave by Blender's own ways too (Tab, the mode menu, undo): a timer sees it and puts settings and status bar back. Undo
+brings back what stands in a scene, but never its tool settings: which scenes have ours is kept here besides.
 """
 
 import bpy
@@ -13,6 +14,8 @@ from . import gp_layers, roles
 MODE = "PAINT_GREASE_PENCIL"
 INTERVAL = 0.25  # s
 TOOL = "stillwater.stroke"
+
+_before: dict[int, tuple] = {}  # by the session_uid of a scene that has our tool settings: its own
 
 
 def enter(context, picture, layer, role: roles.Role) -> None:
@@ -30,11 +33,9 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     holder.active_material_index = gp_layers.material(holder.data, role)
     context.view_layer.objects.active = holder
     holder.select_set(True)
-    _remember(scene, picture, layer_id, role)
-    settings = scene.tool_settings
-    settings.gpencil_stroke_placement_view3d = "ORIGIN"
-    settings.gpencil_sculpt.lock_axis = "AXIS_Z"  # of the grease-pencil layer: across the plane
-    settings.use_keyframe_insert_auto = role.keyed and settings.use_keyframe_insert_auto
+    drawing = scene.stillwater.drawing
+    drawing.role, drawing.picture_id, drawing.layer_id = role.key, picture.id, layer_id
+    drawing.placement, drawing.lock_axis, drawing.auto_key = _settings(scene)
     bpy.ops.object.mode_set(mode=MODE)
     bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
     look_after()
@@ -53,15 +54,10 @@ def finish(scene) -> None:
 
 
 def leave(scene) -> None:
-    """Puts the tool settings back that drawing changed."""
-    drawing, settings = scene.stillwater.drawing, scene.tool_settings
-    if not drawing.role:
-        return
-    settings.gpencil_stroke_placement_view3d = drawing.placement
-    settings.gpencil_sculpt.lock_axis = drawing.lock_axis
-    settings.use_keyframe_insert_auto = drawing.auto_key
-    drawing.role = ""
-    _tell_status()
+    """Says that nothing is being drawn any more."""
+    if scene.stillwater.drawing.role:
+        scene.stillwater.drawing.role = ""
+        look_after()
 
 
 def drawn(scene) -> tuple:
@@ -81,29 +77,29 @@ def hint(scene) -> str:
 
 
 def look_after(*_) -> None:
-    """Starts the timer where something is being drawn; after an undo step or a file that was opened, too."""
-    if any(scene.stillwater.drawing.role for scene in bpy.data.scenes):
-        _tell_status()
-        if not bpy.app.timers.is_registered(tick):
-            bpy.app.timers.register(tick, first_interval=INTERVAL)
+    """Settings, status bar and timer as the scenes say; after an undo step or a file that was opened, too."""
+    for uid in _before.keys() - {scene.session_uid for scene in bpy.data.scenes}:
+        del _before[uid]
+    for scene in bpy.data.scenes:
+        _settle(scene)
+    _tell_status()
+    if _before and not bpy.app.timers.is_registered(tick):
+        bpy.app.timers.register(tick, first_interval=INTERVAL)
 
 
 def tick() -> float | None:
     """Sees whether the artist left draw mode by another way; called by the timer."""
-    busy = [scene for scene in bpy.data.scenes if scene.stillwater.drawing.role]
-    for scene in busy:
-        if not _is_drawing(scene):
+    for scene in bpy.data.scenes:
+        if scene.stillwater.drawing.role and not _is_drawing(scene):
             leave(scene)
-    if any(scene.stillwater.drawing.role for scene in busy):
-        return INTERVAL
-    _tell_status()  # after undo, too, which left no scene to leave
-    return None
+    return INTERVAL if any(scene.stillwater.drawing.role for scene in bpy.data.scenes) else None
 
 
 def stop() -> None:
     """Before the extension goes."""
     for scene in bpy.data.scenes:
         leave(scene)
+    _before.clear()
     if bpy.app.timers.is_registered(tick):
         bpy.app.timers.unregister(tick)
 
@@ -131,12 +127,28 @@ def _holder(context, picture):
     return holder
 
 
-def _remember(scene, picture, layer_id: str, role: roles.Role) -> None:
-    drawing, settings = scene.stillwater.drawing, scene.tool_settings
-    drawing.role, drawing.picture_id, drawing.layer_id = role.key, picture.id, layer_id
-    drawing.placement = settings.gpencil_stroke_placement_view3d
-    drawing.lock_axis = settings.gpencil_sculpt.lock_axis
-    drawing.auto_key = settings.use_keyframe_insert_auto
+def _settings(scene) -> tuple[str, str, bool]:
+    """Where strokes are placed, across which axis they stay, whether keys are made by themselves."""
+    settings = scene.tool_settings
+    placement, lock_axis = settings.gpencil_stroke_placement_view3d, settings.gpencil_sculpt.lock_axis
+    return placement, lock_axis, settings.use_keyframe_insert_auto
+
+
+def _set(scene, placement: str, lock_axis: str, auto_key: bool) -> None:
+    settings = scene.tool_settings
+    settings.gpencil_stroke_placement_view3d, settings.gpencil_sculpt.lock_axis = placement, lock_axis
+    settings.use_keyframe_insert_auto = auto_key
+
+
+def _settle(scene) -> None:
+    """Gives a scene the settings for what is being drawn, or its own again."""
+    drawing, uid = scene.stillwater.drawing, scene.session_uid
+    if drawing.role:
+        _before[uid] = drawing.placement, drawing.lock_axis, drawing.auto_key
+        keyed = roles.by_key(drawing.role).keyed
+        _set(scene, "ORIGIN", "AXIS_Z", keyed and drawing.auto_key)  # across z: of the grease-pencil layer's own space
+    elif uid in _before:
+        _set(scene, *_before.pop(uid))
 
 
 def _keep_last(part) -> None:

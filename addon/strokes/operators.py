@@ -3,7 +3,7 @@
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from . import draw_mode, gp_layers, roles
+from . import change, draw_mode, gp_layers, roles
 
 ITEMS = [(role.key, role.name, role.hint, role.icon, role.number) for role in roles.ROLES]
 
@@ -107,14 +107,10 @@ class STILLWATER_OT_change_role(OfRole, bpy.types.Operator):
         return True
 
     def do(self, context, picture, layer, role):
-        gp = gp_layers.data_of(picture)
         part = gp_layers.ensure(picture, layer.id if layer else "", role)
         if part.hide or part.lock:
-            raise ValueError(f"{part.name}: is hidden or locked")
-        gp_layers.ensure_key(part, role, context.scene.frame_current)
-        context.object.active_material_index = gp_layers.material(gp, role)
-        bpy.ops.grease_pencil.stroke_material_set()
-        return bpy.ops.grease_pencil.move_to_layer(target_layer_name=part.name)
+            raise ValueError(f"{part.name}: is hidden or locked; show and unlock it first")
+        return change.move_selected(context, picture, part, role)
 
 
 class STILLWATER_OT_delete_strokes(OfRole, bpy.types.Operator):

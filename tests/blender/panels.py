@@ -39,6 +39,9 @@ class Recorder:
         self.operators.append(name)
         return SimpleNamespace(**{kind.identifier: None for kind in properties})
 
+    def operator_menu_enum(self, name, property):
+        self.operator(name)
+
     def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
 

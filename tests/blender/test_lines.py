@@ -37,8 +37,9 @@ def test_a_straight_line_is_the_nearest_one():
     offsets = even - even.mean(axis=0)
     direction = np.linalg.svd(offsets, full_matrices=False)[2][0]
     (x0, y0), (x1, y1) = lines.straight_line([stroke(*corners)])
-    assert x0 < x1 and abs(np.cross(direction, (x1 - x0, y1 - y0))) / (x1 - x0) < 1e-5
-    assert abs(np.cross(direction, even.mean(axis=0) - (x0, y0))) < 2e-3
+    across = np.array([-direction[1], direction[0]])
+    assert x0 < x1 and abs(across @ (x1 - x0, y1 - y0)) / (x1 - x0) < 1e-5
+    assert abs(across @ (even.mean(axis=0) - (x0, y0))) < 2e-3
     assert (x0, x1) == pytest.approx((20, 900), abs=1)
 
 
