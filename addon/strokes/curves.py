@@ -28,61 +28,77 @@ class Curves:
     weights: np.ndarray  # (p,): of NURBS curves
 
 
-def evaluate(curves: Curves) -> tuple[np.ndarray, np.ndarray]:
-    """The polylines' offsets (n + 1,) and points (q, c). A cyclic curve ends at its first point again."""
+def evaluate(curves: Curves, tolerance: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """The polylines' offsets (n + 1,) and points (q, c). A cyclic curve ends at its first point again.
+
+    Each segment gets the points that Blender shows, or as few as keep within `tolerance` of the curve; NURBS curves get
+    all of them.
+    """
     sizes = np.diff(curves.offsets)
-    steps = np.where(curves.types == POLY, 1, np.maximum(curves.resolution, 1))
+    splines = {i: _nurbs(curves, i) for i in np.flatnonzero(curves.types == NURBS)}
     segments = np.maximum(np.where(curves.cyclic & (sizes > 1), sizes, sizes - 1), 0)
-    bent = {i: _nurbs(curves, i) for i in np.flatnonzero(curves.types == NURBS)}
-    counts = np.where(sizes > 0, segments * steps + 1, 0)
-    for i, points in bent.items():
-        counts[i] = len(points)
+    segments[list(splines)] = 0
+    curve = np.repeat(np.arange(len(sizes)), segments)
+    local = np.arange(len(curve)) - np.repeat(np.cumsum(segments) - segments, segments)
+    bent = np.flatnonzero(curves.types[curve] != POLY)
+    cubics = _cubics(curves, curve[bent], local[bent])
+    steps = np.ones(len(curve), int)
+    steps[bent] = _steps(np.maximum(curves.resolution, 1)[curve[bent]], cubics, tolerance)
+
+    before = np.concatenate([[0], np.cumsum(steps)])  # each segment; the last point of each curve comes besides
+    first = before[np.cumsum(segments) - segments]
+    counts = before[np.cumsum(segments)] - first + (sizes > 0)
+    counts[list(splines)] = [len(points) for points in splines.values()]
     offsets = np.concatenate([[0], np.cumsum(counts)])
     made = np.empty((offsets[-1], curves.points.shape[1]))
-    for kind, segment in ((POLY, _straight), (CATMULL_ROM, _catmull_rom), (BEZIER, _bezier)):
-        for step in np.unique(steps[curves.types == kind]):
-            chosen = np.flatnonzero((curves.types == kind) & (steps == step) & (sizes > 0))
-            _fill(made, offsets, curves, chosen, segments, segment, int(step))
-    for i, points in bent.items():
+    place = before[:-1] - first[curve] + offsets[curve]
+    made[place] = curves.points[curves.offsets[curve] + local]
+    for step in np.unique(steps[bent][steps[bent] > 1]):
+        group = np.flatnonzero(steps[bent] == step)
+        points = _bernstein(np.arange(1, step) / step) @ cubics[:, group].reshape(4, -1)
+        made[place[bent[group]] + np.arange(1, step)[:, None]] = points.reshape(step - 1, len(group), -1)
+    there = np.flatnonzero(sizes > 0)
+    last = np.where(curves.cyclic, curves.offsets[:-1], curves.offsets[1:] - 1)
+    made[offsets[there + 1] - 1] = curves.points[last[there]]
+    for i, points in splines.items():
         made[offsets[i] : offsets[i + 1]] = points
     return offsets, made
 
 
-def _fill(made, offsets, curves: Curves, chosen, segments, segment, step: int) -> None:
-    """Writes the points of all `chosen` curves, which have one type and one number of steps a segment."""
-    counts = segments[chosen]
-    curve = np.repeat(chosen, counts)
-    local = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+def _cubics(curves: Curves, curve, local) -> np.ndarray:
+    """Segments (the `local`-th of its `curve`) as Bezier cubics, (4, m, c): their ends and two points between."""
     first, size = curves.offsets[curve], np.diff(curves.offsets)[curve]
 
-    def neighbour(distance: int):
+    def neighbour(distance: int) -> np.ndarray:
         index = local + distance
         return first + np.where(curves.cyclic[curve], index % size, np.clip(index, 0, size - 1))
 
-    place = (offsets[curve] + local * step)[:, None] + np.arange(step)
-    made[place] = segment(curves, neighbour, np.arange(step) / step)
-    last = np.where(curves.cyclic[chosen], curves.offsets[chosen], curves.offsets[chosen + 1] - 1)
-    made[offsets[chosen + 1] - 1] = curves.points[last]
+    before, start, end, after = (neighbour(distance) for distance in (-1, 0, 1, 2))
+    places = curves.points
+    made = np.stack([places[start], places[start], places[end], places[end]])
+    handled = curves.types[curve] == BEZIER
+    smooth = ~handled
+    made[1, smooth] += (places[end] - places[before])[smooth] / 6  # tangents: half the distance of the neighbours
+    made[2, smooth] -= (places[after] - places[start])[smooth] / 6
+    third = (made[3] - made[0])[handled] / 3  # what is carried along changes evenly
+    made[1, handled] += third
+    made[2, handled] -= third
+    made[1, handled, :3], made[2, handled, :3] = curves.right[start[handled]], curves.left[end[handled]]
+    return made
 
 
-def _straight(curves: Curves, neighbour, t):
-    return curves.points[neighbour(0)][:, None]
+def _steps(usual, cubics, tolerance: float) -> np.ndarray:
+    """How many points each segment gets. A chord over 1/k of a curve leaves it by at most max |f''| / (8 k^2)."""
+    if tolerance <= 0:
+        return usual
+    bends = 6 * (cubics[:2] - 2 * cubics[1:3] + cubics[2:])  # f'' at both ends, straight between them
+    bend = np.sqrt((bends**2).sum(axis=2).max(axis=0))
+    return np.clip(np.ceil(np.sqrt(bend / (8 * tolerance))), 1, usual).astype(int)
 
 
-def _catmull_rom(curves: Curves, neighbour, t):
-    """A cubic through the middle two of four points, its tangents half their neighbours' distance."""
+def _bernstein(t: np.ndarray) -> np.ndarray:
     s = 1 - t
-    basis = np.stack([-t * s**2, 2 + t**2 * (3 * t - 5), 2 + s**2 * (3 * s - 5), -s * t**2], axis=1) / 2
-    return basis @ np.stack([curves.points[neighbour(i)] for i in (-1, 0, 1, 2)], axis=1)
-
-
-def _bezier(curves: Curves, neighbour, t):
-    """A cubic by two points and the handles between them; what is carried along changes evenly."""
-    s, start, end = 1 - t, neighbour(0), neighbour(1)
-    places = (curves.points[start, :3], curves.right[start], curves.left[end], curves.points[end, :3])
-    basis = np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3], axis=1)
-    carried = np.stack([curves.points[start, 3:], curves.points[end, 3:]], axis=1)
-    return np.concatenate([basis @ np.stack(places, axis=1), np.stack([s, t], axis=1) @ carried], axis=2)
+    return np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3], axis=1)
 
 
 def _nurbs(curves: Curves, i: int) -> np.ndarray:

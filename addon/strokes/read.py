@@ -13,6 +13,8 @@ from .curves import evaluate
 from .lines import Stroke
 from .roles import Role
 
+TOLERANCE = 0.01  # px that a polyline may leave its curve by where that saves points
+
 
 def strokes(scene, picture, layer_id: str, role: Role) -> list[Stroke]:
     """All strokes of one role, in the order in which they lie upon each other.
@@ -70,9 +72,15 @@ def _eye(camera) -> np.ndarray | None:
 
 
 def _in_drawing(holder, part, key, seen: projection.Projection) -> list[Stroke]:
-    offsets, points = evaluate(control_points.of(key.drawing))
     to_world = np.array(layer_to_world(holder, part))
-    pixels, scale = seen.place(points[:, :3] @ to_world[:3, :3].T + to_world[:3, 3])
+
+    def place(points):
+        return seen.place(points[:, :3] @ to_world[:3, :3].T + to_world[:3, 3])
+
+    curves = control_points.of(key.drawing)
+    finest = place(curves.points)[1].max(initial=0) * np.linalg.norm(to_world[:3, :3], 2)  # px for a unit of its space
+    offsets, points = evaluate(curves, TOLERANCE / finest if finest else 0)
+    pixels, scale = place(points)
     # Blender scales what it draws by the object, not by the layer.
     size = np.linalg.norm(np.array(holder.matrix_world)[:3, :3].sum(axis=1)) / np.sqrt(3)
     widths = np.maximum(2 * (points[:, 3] + part.radius_offset) * size * scale, 0)

@@ -145,3 +145,22 @@ def test_knots_of_their_own_are_refused(part):
     drawing = draw(part, kind="NURBS", knots_mode=4, **random(1, 5))
     with pytest.raises(ValueError, match="has knots of its own, which can't be read; set its curve type anew"):
         control_points.of(drawing)
+    part.frames.remove(1)  # before Blender 4.5 looks at it: there are no such knots
+
+
+@pytest.mark.parametrize("kind", ["CATMULL_ROM", "BEZIER"])
+def test_fewer_points_keep_within_the_tolerance(part, kind):
+    """Of a curve that is smooth and dense, and of one with corners."""
+    t = np.linspace(0, 1, 200)
+    smooth = np.stack([np.cos(9 * t), np.sin(7 * t), t], axis=1)
+    handle = np.gradient(smooth, axis=0) / 3
+    draw(part, smooth, kind=kind, resolution=40, handle_left=smooth - handle, handle_right=smooth + handle)
+    drawing = draw(part, kind=kind, resolution=40, **random(2, 9))
+    control = control_points.of(drawing)
+    for tolerance in (1e-3, 1e-5):
+        whole, fewer = (curves.evaluate(control, given) for given in (0, tolerance))
+        assert len(fewer[1]) < 0.6 * len(whole[1]) and np.array_equal(whole[0] > 0, fewer[0] > 0)
+        for i in (0, 1):
+            lines = [points[offsets[i] : offsets[i + 1]] for offsets, points in (whole, fewer)]
+            assert distance(*lines) < 1.01 * tolerance
+            np.testing.assert_array_equal(lines[0][[0, -1]], lines[1][[0, -1]])
