@@ -6,10 +6,11 @@ brings back what stands in a scene, but never its tool settings: which scenes ha
 """
 
 import bpy
+import numpy as np
 
 from .. import versions
 from ..properties import names
-from . import gp_layers, roles
+from . import control_points, gp_layers, roles
 
 MODE = "PAINT_GREASE_PENCIL"
 INTERVAL = 0.25  # s
@@ -154,9 +155,9 @@ def _settle(scene) -> None:
 def _keep_last(part) -> None:
     """Removes the strokes before the last line of each drawing; dabs after it as well."""
     for key in part.frames:
-        sizes = [len(stroke.points) for stroke in key.drawing.strokes]
-        lines = [i for i, size in enumerate(sizes) if size > 1]
-        others = [i for i in range(len(sizes)) if lines and i != lines[-1]]
+        sizes = np.diff(control_points.offsets_of(key.drawing))
+        lines = np.flatnonzero(sizes > 1)
+        others = [i for i in range(len(sizes)) if len(lines) and i != lines[-1]]
         if others:
             key.drawing.remove_strokes(indices=others)
 

@@ -84,15 +84,16 @@ def test_a_curve_is_the_one_that_blender_shows(part, picture, kind, cyclic):
 @pytest.mark.parametrize("cyclic", [False, True], ids=["open", "cyclic"])
 @pytest.mark.parametrize("knots", range(4), ids=KNOTS)
 def test_a_nurbs_curve_is_the_one_that_blender_shows(part, picture, knots, cyclic):
-    """Orders 3 to 5, with as many points as are too few, just enough, and more. 4.5 places its points elsewhere along
-    the same curve, so that it cuts corners between Bezier pieces; the points themselves lie on it."""
+    """Orders 3 to 5, with as many points as are too few, just enough, and more. 5.2 makes the very same points, 4.5 others
+    of the same curve, so that it cuts corners between Bezier pieces."""
     for seed, (count, order) in enumerate((n, order) for n in (1, 2, 3, 4, 5, 6, 9) for order in (3, 4, 5)):
         stored = random(seed, count)
-        drawing = draw(
-            part, kind="NURBS", cyclic=cyclic, resolution=100, nurbs_order=order, knots_mode=knots, **stored
-        )
+        drawing = draw(part, kind="NURBS", cyclic=cyclic, resolution=50, nurbs_order=order, knots_mode=knots, **stored)
     for line, wanted in zip(ours(drawing), converted(picture.strokes), strict=True):
-        assert farthest(wanted, line) < 5e-4 and distance(line, wanted) < 1e-2  # chords of 100 to a span
+        if len(line) == len(wanted):
+            assert distance(line, wanted) < 1e-5
+        else:
+            assert bpy.app.version < (5, 0) and farthest(wanted, line) < 2e-3 and distance(line, wanted) < 3e-2
 
 
 def test_a_nurbs_curve_of_order_2_joins_its_points(part):
@@ -151,13 +152,13 @@ def test_knots_of_their_own_are_refused(part):
 @pytest.mark.parametrize("kind", ["CATMULL_ROM", "BEZIER"])
 def test_fewer_points_keep_within_the_tolerance(part, kind):
     """Of a curve that is smooth and dense, and of one with corners."""
-    t = np.linspace(0, 1, 200)
+    t = np.linspace(0, 1, 60)
     smooth = np.stack([np.cos(9 * t), np.sin(7 * t), t], axis=1)
     handle = np.gradient(smooth, axis=0) / 3
-    draw(part, smooth, kind=kind, resolution=40, handle_left=smooth - handle, handle_right=smooth + handle)
-    drawing = draw(part, kind=kind, resolution=40, **random(2, 9))
+    draw(part, smooth, kind=kind, resolution=20, handle_left=smooth - handle, handle_right=smooth + handle)
+    drawing = draw(part, kind=kind, resolution=20, **random(2, 9))
     control = control_points.of(drawing)
-    for tolerance in (1e-3, 1e-5):
+    for tolerance in (1e-3, 1e-4):
         whole, fewer = (curves.evaluate(control, given) for given in (0, tolerance))
         assert len(fewer[1]) < 0.6 * len(whole[1]) and np.array_equal(whole[0] > 0, fewer[0] > 0)
         for i in (0, 1):
