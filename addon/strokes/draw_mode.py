@@ -17,6 +17,7 @@ INTERVAL = 0.25  # s
 TOOL = "stillwater.stroke"
 
 _before: dict[int, tuple] = {}  # by the session_uid of a scene that has our tool settings: its own
+_told: set[str] = set()  # workspaces whose status bar has our hint
 
 
 def enter(context, picture, layer, role: roles.Role) -> None:
@@ -163,7 +164,10 @@ def _keep_last(part) -> None:
 
 
 def _tell_status() -> None:
-    """The hint in every window's status bar, or Blender's own text again."""
+    """The hint in every window's status bar; Blender's own text again where it was ours."""
     for window in bpy.context.window_manager.windows:
-        with bpy.context.temp_override(window=window):
-            window.workspace.status_text_set(hint(window.scene) or None)
+        text, workspace = hint(window.scene), window.workspace
+        if text or workspace.name in _told:
+            with bpy.context.temp_override(window=window):
+                workspace.status_text_set(text or None)
+        (_told.add if text else _told.discard)(workspace.name)

@@ -40,6 +40,7 @@ def ensure(picture, layer_id: str, role: roles.Role):
 def copy(picture, from_id: str, to_id: str) -> None:
     """Gives the layer `to_id` a copy of all strokes of the layer `from_id`."""
     gp = data_of(picture)
+    active = gp.layers.active if gp is not None else None
     for role in roles.ROLES:
         for part in of(picture, from_id, role):
             gp.layers.active = part
@@ -48,6 +49,8 @@ def copy(picture, from_id: str, to_id: str) -> None:
             made = gp.layers.active
             _mark(gp, made, to_id, role)
             made.name = _name(picture, to_id, role)
+    if active is not None:
+        gp.layers.active = active
 
 
 def remove(picture, layer_id: str) -> None:

@@ -66,6 +66,18 @@ def test_done_leads_back(scene, picture, layers):
     assert status() == "" and draw_mode.tick() is None
 
 
+def test_the_status_bar_is_left_to_others(scene, picture, layers, monkeypatch):
+    """It gets the hint, is cleared once, and not touched where nothing was drawn."""
+    texts = []
+    monkeypatch.setattr(bpy.types.WorkSpace, "status_text_set", lambda self, text: texts.append(text))
+    draw_mode.look_after()
+    assert texts == []
+    bpy.ops.stillwater.draw_stroke(role="sway_line")
+    bpy.ops.stillwater.stop_drawing()
+    draw_mode.look_after()
+    assert texts == [f"Sway Line of Oak: {SWAY.hint}", None]
+
+
 def test_leaving_by_blender_s_own_ways_is_seen(scene, picture, layers):
     before = settings(scene)
     bpy.ops.stillwater.draw_stroke(role="sway_line")

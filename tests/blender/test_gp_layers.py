@@ -113,7 +113,9 @@ def test_several_of_one_role_stay_told_apart(picture, oak):
 def test_a_copied_layer_has_strokes_of_its_own(scene, extension, picture, oak):
     copy = extension.properties.arrange.add_layer(picture, "Copy")
     oak, copy = picture.layers
+    picture.strokes.data.layers.active = picture.strokes.data.layers["Horizon"]
     extension.strokes.copy_roles(picture, oak.id, copy.id)
+    assert picture.strokes.data.layers.active.name == "Horizon"
     assert sorted(kept(picture)) == ["Copy · Sway Line", "Horizon", "Oak · Sway Line"]
     made = gp_layers.of(picture, copy.id, SWAY)[0]
     assert made.parent == picture.plane
