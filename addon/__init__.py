@@ -7,6 +7,7 @@
     recipe       scene <-> recipe, without bpy
     ui           the sidebar's tab, and what all panels share
     compositor   the node that shows the frames
+    strokes      what is said by drawing on the picture
     layers       the list of layers, their motions, wind and view
     bake         the worker that makes the frames
     pictures     from a file on disk to a picture that can be drawn on, and away again
@@ -14,9 +15,9 @@
 Each room registers its own classes: properties, operators and the panels that show them.
 """
 
-from . import bake, compositor, engine, layers, pictures, preferences, properties, ui
+from . import bake, compositor, engine, layers, pictures, preferences, properties, strokes, ui
 
-ROOMS = [preferences, properties, ui, compositor, layers, bake, pictures]
+ROOMS = [preferences, properties, ui, compositor, strokes, layers, bake, pictures]
 
 
 def register():

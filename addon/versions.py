@@ -63,6 +63,11 @@ def output_socket(tree):
     return (node or tree.nodes.new("NodeGroupOutput")).inputs[0]
 
 
+def grease_pencils():
+    """The file's grease-pencil data; before 5.0 that name meant annotations."""
+    return bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
+
+
 def channelbags(data) -> list:
     """The collections of F-curves that move a datablock, given its animation data: its action's and its strips'."""
     strips = [strip for track in data.nla_tracks for strip in track.strips]

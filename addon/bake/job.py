@@ -9,7 +9,7 @@ import time
 
 import bpy
 
-from .. import engine, preferences, versions
+from .. import engine, preferences, strokes, versions
 from ..compositor import tree as node
 from ..properties import image
 from ..recipe.animation import Animation
@@ -26,6 +26,7 @@ _jobs: dict[int, tuple[Worker, Progress]] = {}  # by the tree's session_uid
 def write_recipe(scene, picture) -> str:
     """Writes the picture's recipe into its folder and returns the file's path."""
     folder = places.folder_of(picture)
+    scene.view_layers[0].update()  # a script may have moved what strokes are seen through
     data = scene.animation_data
     animation = Animation(
         scene,
@@ -34,7 +35,7 @@ def write_recipe(scene, picture) -> str:
         versions.curves_of(data.action, data.action_slot) if data else (),
         versions.stripped_paths(data) if data else (),
     )
-    recipe = recipe_of(scene, picture, animation, places.locate_from(folder))
+    recipe = recipe_of(scene, picture, animation, places.locate_from(folder), strokes.drawn(scene, picture))
     path = folder / "recipe.json"
     unfinished = path.with_suffix(".json.part")
     unfinished.write_text(json.dumps(recipe, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import bpy
 
+from .. import strokes
 from ..properties import arrange, curves, plain
 from .selection import OfLayers, OfPicture, chosen
 
@@ -22,12 +23,16 @@ def place() -> Path:
 
 
 def to_text(picture, indices: list[int]) -> str:
-    """The layers as JSON, front first: what was said, keys, drivers, and the names of the layers that they know."""
+    """The layers as JSON, front first: what was said, keys, drivers, and the names of the layers that they know.
+
+    What was drawn comes along as numbers. Throws ValueError where it can't be read.
+    """
     names = {layer.id: layer.name for layer in picture.layers}
     layers = []
     for index in indices:
         layer = picture.layers[index]
         values = plain.values_of(layer, but=arrange.OWN)
+        _write_strokes(values["motion"], layer.id, strokes.drawn(picture.id_data, picture))
         _each_path(values, lambda path: bpy.path.abspath(path) if path else "")
         layers.append({"id": layer.id, "name": layer.name, "values": values, **curves.to_data(picture, index)})
     return json.dumps({"stillwater_layers": VERSION, "layers": layers, "names": names}, indent=1)
@@ -83,6 +88,13 @@ def _reconnect(picture, index: int, ids: dict, names: dict) -> list[str]:
     return lost
 
 
+def _write_strokes(motion: dict, layer_id: str, drawn) -> None:
+    if line := drawn(layer_id, "sway_line"):
+        motion["sway"]["armature_root"], motion["sway"]["armature_tip"] = line
+    if line := drawn(layer_id, "waterline"):
+        motion["bob"]["waterline"] = [{"place": place} for place in line]
+
+
 def _each_path(values: dict, change) -> None:
     for path in FILES:
         group, name = path.split(".")
@@ -110,7 +122,7 @@ class STILLWATER_OT_copy_layers(OfLayers, bpy.types.Operator):
             unfinished = place().with_suffix(".part")
             unfinished.write_text(to_text(picture, indices), encoding="utf-8")
             unfinished.replace(place())
-        except OSError as error:
+        except (OSError, ValueError) as error:
             self.report({"ERROR"}, f"The layers can't be copied: {error}")
             return {"CANCELLED"}
         self.report({"INFO"}, f"Copied {len(indices)} layer{'s' * (len(indices) != 1)}")

@@ -2,6 +2,7 @@
 
 import bpy
 
+from .. import strokes
 from ..properties import motions
 from . import missing
 
@@ -17,7 +18,7 @@ class STILLWATER_UL_layers(bpy.types.UIList):
         named = row.row(align=True)
         named.active = item.visible
         named.prop(item, "name", text="", emboss=False, icon=motions.ICONS[item.motion.type])
-        if missing.of(active_data, index):
+        if missing.of(active_data, index, strokes.replaced(context.scene, active_data, item)):
             row.label(text="", icon="ERROR")
         row.prop(item, "solo", text="", emboss=False, icon="SOLO_ON" if item.solo else "SOLO_OFF")
         row.prop(item, "visible", text="", emboss=False, icon="HIDE_OFF" if item.visible else "HIDE_ON")

@@ -1,10 +1,13 @@
 """What a layer still misses before it can move, as a sentence that says what to do. Reads, and needs no bpy."""
 
 
-def of(picture, index: int) -> list[str]:
-    """A sentence for each thing that the engine would miss in one layer."""
+def of(picture, index: int, drawn: set[str]) -> list[str]:
+    """A sentence for each thing that the engine would miss in one layer.
+
+    `drawn`: the numbers of its motion, and of the view, that strokes stand for.
+    """
     layer = picture.layers[index]
-    return [*_matte(layer, index == len(picture.layers) - 1), *_motion(picture, layer)]
+    return [*_matte(layer, index == len(picture.layers) - 1), *_motion(picture, layer, drawn)]
 
 
 def _matte(layer, last: bool) -> list[str]:
@@ -19,23 +22,23 @@ def _matte(layer, last: bool) -> list[str]:
     return said
 
 
-def _motion(picture, layer) -> list[str]:
+def _motion(picture, layer, drawn: set[str]) -> list[str]:
     motion = layer.motion
     match motion.type:
-        case "sway" if tuple(motion.sway.armature_root) == tuple(motion.sway.armature_tip):
+        case "sway" if tuple(motion.sway.armature_root) == tuple(motion.sway.armature_tip) and "armature_tip" not in drawn:
             return ["Draw its sway line, from where it is held to its tip"]
-        case "ripple" if not picture.view.use_horizon:
-            return ["Say where the horizon is: turn it on in View"]
+        case "ripple" if not picture.view.use_horizon and "use_horizon" not in drawn:
+            return ["Draw the horizon, or place it in View"]
         case "bob":
-            return _bob(picture, motion.bob)
+            return _bob(picture, motion.bob, drawn)
     return []
 
 
-def _bob(picture, bob) -> list[str]:
+def _bob(picture, bob, drawn: set[str]) -> list[str]:
     said = []
     water = {layer.name for layer in picture.layers if layer.motion.type == "ripple"}
     if bob.water not in water:
         said.append("Choose the water it floats on" if water else "Add a layer with Ripple: the water it floats on")
-    if len({tuple(point.place) for point in bob.waterline}) < 2:
+    if len({tuple(point.place) for point in bob.waterline}) < 2 and "waterline" not in drawn:
         said.append("Draw its waterline, along the hull where it meets the water")
     return said

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
+from .. import strokes
 from ..properties import arrange
 from . import preset_files
 from .selection import MOTIONS, OfLayers, OfPicture, chosen
@@ -47,7 +48,7 @@ class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
 
 
 class STILLWATER_OT_remove_layer(OfLayers, bpy.types.Operator):
-    """Remove the selected layers, their keys and their drivers"""
+    """Remove the selected layers, their strokes, keys and drivers"""
 
     bl_idname = "stillwater.remove_layer"
     bl_label = "Remove Layer"
@@ -56,13 +57,15 @@ class STILLWATER_OT_remove_layer(OfLayers, bpy.types.Operator):
         picture = context.scene.stillwater.active()
         gone = chosen(picture)
         after = picture.active_layer - sum(index < picture.active_layer for index in gone)
+        for index in gone:
+            strokes.remove_roles(picture, picture.layers[index].id)
         arrange.remove_layers(picture, gone)
         picture.active_layer = max(0, min(after, len(picture.layers) - 1))
         return {"FINISHED"}
 
 
 class STILLWATER_OT_duplicate_layer(OfLayers, bpy.types.Operator):
-    """Duplicate the selected layers, with their keys and drivers; each copy stands in front of its own"""
+    """Duplicate the selected layers, with their strokes, keys and drivers; each copy stands in front of its own"""
 
     bl_idname = "stillwater.duplicate_layer"
     bl_label = "Duplicate Layer"
@@ -72,7 +75,8 @@ class STILLWATER_OT_duplicate_layer(OfLayers, bpy.types.Operator):
         originals = chosen(picture)
         known = {layer.id for layer in picture.layers}
         active = picture.active_layer + originals.index(picture.active_layer)
-        arrange.duplicate_layers(picture, originals)
+        for original, copy in arrange.duplicate_layers(picture, originals).items():
+            strokes.copy_roles(picture, original, copy)
         for layer in picture.layers:
             layer.selected = layer.id not in known
         picture.active_layer = active

@@ -1,5 +1,6 @@
 """The list of layers, and what the active one is and does."""
 
+from .. import strokes
 from ..ui import sidebar
 from . import missing, selection
 from .presets import STILLWATER_PT_motion_presets
@@ -19,11 +20,13 @@ class _Layers(sidebar.OfPicture):
         selected = selection.chosen(picture)
         if len(selected) > 1:
             _draw_selection(self.layout, len(selected))
-        for sentence in missing.of(picture, picture.active_layer):
+        layer = picture.layers[picture.active_layer]
+        drawn = strokes.replaced(context.scene, picture, layer)
+        for sentence in missing.of(picture, picture.active_layer, drawn):
             sidebar.say(context, self.layout, sentence, "ERROR")
         self.layout.use_property_split = True
         self.layout.use_property_decorate = True
-        _draw_layer(self.layout, picture.layers[picture.active_layer])
+        _draw_layer(self.layout, layer, drawn)
 
 
 def _draw_list(layout, picture) -> None:
@@ -50,27 +53,28 @@ def _draw_selection(layout, count: int) -> None:
     row.operator("stillwater.copy_to_selected", text="Copy Motion", icon="COPYDOWN").path = "motion"
 
 
-def _draw_layer(layout, layer) -> None:
+def _draw_layer(layout, layer, drawn: set[str]) -> None:
+    """`drawn`: the numbers that strokes stand for; they are not shown."""
     layout.prop(layer.motion, "type")
     if layer.motion.numbers() is not None:
         STILLWATER_PT_motion_presets.draw_button(layout, "Presets")
         {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift}[layer.motion.type](
-            layout, layer.motion.numbers()
+            layout, layer.motion.numbers(), drawn
         )
     _draw_matte(layout, layer)
     _draw_fill(layout, layer)
     _draw_rest(layout, layer)
 
 
-def _draw_sway(layout, sway) -> None:
+def _draw_sway(layout, sway, drawn: set[str]) -> None:
     sidebar.draw(layout, sway, "amount", "frequency", "shimmer")
-    if line := sidebar.fold(layout, "stillwater_sway_line", "Sway Line"):
+    if "armature_tip" not in drawn and (line := sidebar.fold(layout, "stillwater_sway_line", "Sway Line")):
         sidebar.draw(line, sway, "armature_root", "armature_tip")
     if details := sidebar.fold(layout, "stillwater_sway", "Details"):
         sidebar.draw(details, sway, "foreshortening", "mass", "damping", "seed")
 
 
-def _draw_ripple(layout, ripple) -> None:
+def _draw_ripple(layout, ripple, drawn: set[str]) -> None:
     sidebar.draw(layout, ripple, "mode", "amplitude", "tile")
     if details := sidebar.fold(layout, "stillwater_ripple", "Details"):
         sidebar.draw(details, ripple, "roughness", "resolution")
@@ -79,8 +83,10 @@ def _draw_ripple(layout, ripple) -> None:
         sidebar.draw(details, ripple, "seed")
 
 
-def _draw_bob(layout, bob) -> None:
+def _draw_bob(layout, bob, drawn: set[str]) -> None:
     sidebar.draw(layout, bob, "water", "amount")
+    if "waterline" in drawn:
+        return
     line = sidebar.fold(layout, "stillwater_waterline", f"Waterline: {len(bob.waterline)} Points")
     if line is None:
         return
@@ -95,7 +101,7 @@ def _draw_bob(layout, bob) -> None:
     row.operator("stillwater.clear_waterline", text="Clear", icon="TRASH")
 
 
-def _draw_drift(layout, drift) -> None:
+def _draw_drift(layout, drift, drawn: set[str]) -> None:
     sidebar.draw(layout, drift, "use_velocity")
     sidebar.draw(layout, drift, "velocity" if drift.use_velocity else "wind")
 

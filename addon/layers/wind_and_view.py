@@ -1,5 +1,6 @@
 """What all layers share: the wind, and how the picture sees the world."""
 
+from .. import strokes
 from ..ui import sidebar
 from .presets import STILLWATER_PT_wind_presets
 
@@ -30,12 +31,14 @@ class _View(sidebar.OfPicture):
         picture = context.scene.stillwater.active()
         layout, view = self.layout, picture.view
         water = [layer.name for layer in picture.layers if layer.motion.type == "ripple"]
-        if water and not view.use_horizon:
-            sidebar.say(context, layout, f"{water[0]} needs the horizon: turn it on and place its two ends", "ERROR")
+        drawn = "use_horizon" in strokes.replaced(context.scene, picture)
+        if water and not view.use_horizon and not drawn:
+            sidebar.say(context, layout, f"{water[0]} needs the horizon: draw it, or turn it on and place its ends", "ERROR")
         layout.use_property_split = True
-        sidebar.draw(layout, view, "use_horizon")
-        if view.use_horizon:
-            sidebar.draw(layout, view, "horizon_start", "horizon_end")
+        if not drawn:
+            sidebar.draw(layout, view, "use_horizon")
+            if view.use_horizon:
+                sidebar.draw(layout, view, "horizon_start", "horizon_end")
         sidebar.draw(layout, view, "fov", "height")
 
 

@@ -23,10 +23,11 @@ def add_layer(picture, name: str):
     return layer
 
 
-def duplicate_layers(picture, indices: list[int]) -> None:
+def duplicate_layers(picture, indices: list[int]) -> dict[str, str]:
     """Copies of layers, each in front of its own, with ids, names, keys and drivers of their own.
 
-    Where layers that are copied together know each other (a boat and its water), so do the copies.
+    Where layers that are copied together know each other (a boat and its water), so do the copies. Returns the copies'
+    ids by their originals'.
     """
     count = len(picture.layers)
     said = {i: (picture.layers[i].name, plain.values_of(picture.layers[i], but=OWN)) for i in indices}
@@ -39,6 +40,7 @@ def duplicate_layers(picture, indices: list[int]) -> None:
         curves.copy(picture, i, place, ids=ids)
     copies = dict(zip(indices, range(count, len(picture.layers)), strict=True))
     reorder_layers(picture, [i for old in range(count) for i in (copies.get(old), old) if i is not None])
+    return ids
 
 
 def refer(layer, ids: dict[str, str]) -> None:

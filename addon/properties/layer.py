@@ -65,7 +65,7 @@ class STILLWATER_PG_layer(bpy.types.PropertyGroup):
     id: StringProperty(options={"HIDDEN"})
     name: StringProperty(
         name="Name", description="Unique in its picture", maxlen=200, options=set(),
-        update=lambda self, context: names.make_unique(self, names.picture_of(self).layers),
+        update=lambda self, context: names.rename_layer(self),
     )
     selected: BoolProperty(
         name="Select", description="Take the layer along in what is done to all selected ones. Drag over several boxes",

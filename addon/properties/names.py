@@ -5,6 +5,7 @@ import uuid
 
 import bpy
 
+renamed = []  # called with a picture when a layer of it was renamed; rooms that keep names add themselves
 PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"}  # options of a property that holds one: not to be keyed
 
 
@@ -74,3 +75,11 @@ def make_unique(item, siblings) -> None:
         name = f"{base}.{count:03d}"
     if name != item.name:
         item.name = name
+
+
+def rename_layer(layer) -> None:
+    """After a layer got a name: makes it unique, and tells who keeps it."""
+    picture = picture_of(layer)
+    make_unique(layer, picture.layers)
+    for follow in renamed:
+        follow(picture)

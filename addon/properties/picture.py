@@ -16,6 +16,7 @@ from bpy.props import (
 )
 
 from . import image, names
+from .drawing import STILLWATER_PG_drawing
 from .layer import STILLWATER_PG_layer, select_active
 from .motions import place, seed
 
@@ -145,6 +146,7 @@ class STILLWATER_PG_scene(bpy.types.PropertyGroup):
     former: PointerProperty(type=STILLWATER_PG_former)
     pictures: CollectionProperty(type=STILLWATER_PG_picture)
     active_picture: IntProperty(min=0, options={"HIDDEN"})
+    drawing: PointerProperty(type=STILLWATER_PG_drawing)
 
     def active(self):
         """The picture that panels and operators mean; None where there is none."""

@@ -50,6 +50,9 @@ class Recorder:
         self.made.append(SimpleNamespace(**{kind.identifier: None for kind in properties}))
         return self.made[-1]
 
+    def operator_menu_enum(self, name, property):
+        self.operator(name)
+
     def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
         self.lists.append(active_name)

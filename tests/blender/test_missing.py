@@ -26,7 +26,7 @@ def named(name: str):
 
 
 def everything() -> list[str]:
-    return [sentence for i in range(len(now().layers)) for sentence in missing.of(now(), i)]
+    return [sentence for i in range(len(now().layers)) for sentence in missing.of(now(), i, set())]
 
 
 def test_nothing_is_missing_in_a_whole_picture(extension, whole):
@@ -82,7 +82,7 @@ SENTENCES = {
     no_matte_file: "Choose the file of its matte",
     no_labels: "Choose the file of its matte",
     no_background: "Choose the file that is painted behind it",
-    no_horizon: "Say where the horizon is: turn it on in View",
+    no_horizon: "Draw the horizon, or place it in View",
     no_water: "Choose the water it floats on",
     wrong_water: "Choose the water it floats on",
     no_water_at_all: "Add a layer with Ripple: the water it floats on",
