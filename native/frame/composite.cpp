@@ -12,14 +12,15 @@ namespace {
 constexpr int tile_side = Run::longest;
 constexpr int no_layer = -1;
 
-// One row of a tile, as far as it is composed.
+// One row of a tile, as far as it is composed (over_kernel.h).
 struct RowState {
-  float through[tile_side];      // share of what lies behind that is still seen
-  float moving[tile_side];
-  float most[tile_side];         // largest contribution so far
-  int owner[tile_side];
-  unsigned char needed[tile_side];
-  int open = 0;                  // pixels that are needed
+  static constexpr int length = tile_side + 3;  // runs are composed by fours
+  float through[length];
+  float moving[length];
+  float most[length];
+  int owner[length];
+  unsigned char needed[length];
+  int open = 0;  // pixels that are needed
 
   void begin(int count) {
     std::fill_n(through, count, 1.0f);
@@ -69,9 +70,9 @@ class TileComposer {
     if (first > last) return;
     const Run open{tile_x + first, y, last - first + 1};
     if (!layer.motion->draw(open, row.needed + first, drawn_.data())) return;
-    row.open -= stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, open.count,
-                                     result_.combined[y][open.x].val, row.through + first, row.moving + first,
-                                     row.most + first, row.owner + first, row.needed + first);
+    const StillwaterComposedRun run{result_.combined[y][open.x].val, row.through + first, row.moving + first,
+                                    row.most + first, row.owner + first, row.needed + first};
+    row.open -= stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, open.count, run);
   }
 
   // Owners change rarely along a row: each stretch of one owner is one call.
@@ -100,7 +101,7 @@ class TileComposer {
   CompositionWish wish_;
   Composition& result_;
   std::array<RowState, tile_side> rows_;
-  std::array<cv::Vec4f, tile_side> drawn_;
+  std::array<cv::Vec4f, RowState::length> drawn_;
 };
 
 }  // namespace

@@ -16,17 +16,38 @@ struct Plate {
   double output_scale = 1;
   cv::Rect box;           ///< where it lies, picture pixels
   bool endless_x = false, endless_y = false;
+  int picture_width = 0;  ///< picture pixels
+};
+
+/// Where a run of output pixels is sampled when a layer is displaced, in its plate's index coordinates. Null stands for
+/// no displacement.
+struct SampledRun {
+  float x[Run::longest], y[Run::longest];
+
+  SampledRun(const Plate& plate, const Displacement* displacement, const Run& run);
+};
+
+/// What layers that are the still layer, displaced, have in common, however many copies of it are seen: the flow leads
+/// through the still picture to the map of the next moment.
+class TravellingLayer : public LayerMotion {
+ public:
+  TravellingLayer(const Plate& plate, const Travel& travel) : plate_(plate), travel_(travel) {}
+
+  bool at_rest() const override;
+  void flow(float* x, float* y, int count) const override;
+
+ protected:
+  /// Output pixels that the layer can reach with this displacement (null: none).
+  cv::Rect bounds(const Displacement* displacement) const;
+
+  const Plate& plate_;
+
+ private:
+  Travel travel_;
 };
 
 /// A layer that is the still layer, displaced (sway, ripple, bob, drift and whatever follows them): colour is sampled
-/// through the map of this moment, the flow leads through the still picture to the map of the next.
+/// through the map of this moment.
 std::unique_ptr<LayerMotion> displaced_layer(const Plate& plate, const Placement& now, const Travel& travel);
-
-/// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half
-/// way. `mean` is the layer, blurred: what does not change where the copies differ; rho is how alike the layer is to
-/// itself at the distance of the copies. Of straight colours; coverage dissolves.
-///
-///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2 + 2 w1 w2 rho),   M = w1 M1 + w2 M2
-std::unique_ptr<LayerMotion> cross_faded_layer(const Plate& plate, const Plate& mean, const Placement& now, const Travel& travel);
 
 }  // namespace stillwater

@@ -45,8 +45,8 @@ FrameRenderer::FrameRenderer(const PictureSetup& picture, const std::vector<Laye
     layer.plate = make_plate(setup.image, picture.size, picture.scale, endless);
     if (picture.has_alpha) layer.alpha_plate = make_plate(setup.alpha, picture.size, picture.scale, endless);
     if (!drifting) continue;
-    layer.mean = make_mean_plate(setup.image, picture.size, picture.scale, endless);
-    if (picture.has_alpha) layer.alpha_mean = make_mean_plate(setup.alpha, picture.size, picture.scale, endless);
+    layer.fade = std::make_unique<CrossFade>(layer.plate);
+    if (picture.has_alpha) layer.alpha_fade = std::make_unique<CrossFade>(layer.alpha_plate);
   }
 }
 
@@ -72,9 +72,9 @@ FrameRenderer::LayerMotions FrameRenderer::motions_of(const std::vector<Placemen
   for (size_t i = 0; i < layers_.size(); ++i) {
     const Layer& layer = layers_[i];
     const Plate& plate = of_alpha ? layer.alpha_plate : layer.plate;
-    const Plate& mean = of_alpha ? layer.alpha_mean : layer.mean;
-    motions.push_back(now[i].second_share > 0 ? cross_faded_layer(plate, mean, now[i], travel[i])
-                                              : displaced_layer(plate, now[i], travel[i]));
+    const CrossFade* fade = (of_alpha ? layer.alpha_fade : layer.fade).get();
+    motions.push_back(fade && now[i].second_share > 0 ? fade->at(plate, now[i], travel[i])
+                                                      : displaced_layer(plate, now[i], travel[i]));
   }
   return motions;
 }

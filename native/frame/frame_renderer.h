@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frame/composite.h"
+#include "frame/cross_fade.h"
 #include "frame/motions.h"
 #include "frame/plate.h"
 #include "layers/layer_image.h"
@@ -71,7 +72,7 @@ class FrameRenderer {
  private:
   struct Layer {
     Plate plate, alpha_plate;
-    Plate mean, alpha_mean;  ///< of drifts and what follows them
+    std::unique_ptr<CrossFade> fade, alpha_fade;  ///< of drifts and what follows them
     bool visible = true, moves = false;
   };
 

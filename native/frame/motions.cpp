@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace stillwater {
 namespace {
@@ -94,13 +95,18 @@ class MomentOfMotions {
       : motions_(motions), moment_(moment), numbers_(numbers), before_(before), placements_(numbers.size()) {}
 
   std::vector<Placement> all() {
+    parallel_rows(static_cast<int>(numbers_.size()), 1, [&](int first, int last) {
+      for (int i = first; i < last; ++i)
+        if (const auto* sway = std::get_if<Sway>(&numbers_[i]))
+          placements_[i] = alone(motions_.sways_[i]->at(moment_, *sway));
+    });
     for (const int i : motions_.order_) placements_[i] = after_following(i, own(i));
     return std::move(placements_);
   }
 
  private:
   Placement own(int i) const {
-    if (const auto* sway = std::get_if<Sway>(&numbers_[i])) return alone(motions_.sways_[i]->at(moment_, *sway));
+    if (std::holds_alternative<Sway>(numbers_[i])) return placements_[i];  // they need no other layer: made together
     if (const auto* ripple = std::get_if<Ripple>(&numbers_[i])) return alone(motions_.ripples_[i]->at(moment_, *ripple));
     if (const auto* boat = std::get_if<Bob>(&numbers_[i])) {
       const auto& water = placements_[motions_.layers_[i].water].first;

@@ -9,9 +9,6 @@
 namespace stillwater {
 namespace {
 
-// Sigma of the blur that leaves the large shapes, of the picture's width.
-constexpr double mean_sigma = 0.02;
-
 int scaled_side(int side, double scale) { return std::max(1, static_cast<int>(std::lround(side * scale))); }
 
 // The layer on the canvas that its plate covers: its box, or the whole picture along endless axes.
@@ -68,6 +65,7 @@ Plate as_plate(const LayerImage& scaled, const cv::Rect& layer_box, cv::Size pic
   plate.box = layer_box;
   plate.endless_x = endless.x;
   plate.endless_y = endless.y;
+  plate.picture_width = picture.width;
   return plate;
 }
 
@@ -77,15 +75,6 @@ Plate make_plate(const LayerImage& layer, cv::Size picture, double output_scale,
   if (layer.box.empty()) return {};
   return as_plate(at_plate_scale(layer, picture, std::min(1.0, output_scale), endless), layer.box, picture, output_scale,
                   endless);
-}
-
-Plate make_mean_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless) {
-  if (layer.box.empty()) return {};
-  LayerImage scaled = at_plate_scale(layer, picture, std::min(1.0, output_scale), endless);
-  const double sigma = std::max(1.0, mean_sigma * picture.width * std::min(1.0, output_scale));
-  Rgba blurred;
-  cv::GaussianBlur(scaled.pixels, blurred, cv::Size(), sigma, sigma, cv::BORDER_REPLICATE);
-  return as_plate({blurred, scaled.box}, layer.box, picture, output_scale, endless);
 }
 
 Point plate_period(cv::Size picture, double output_scale) {

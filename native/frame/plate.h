@@ -14,9 +14,6 @@ struct Endless {
 /// (areas are averaged), else the picture's. An endless layer is continued by make_cyclic().
 Plate make_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless);
 
-/// The plate of a layer blurred so far that only large shapes are left (for cross_faded_layer()).
-Plate make_mean_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless);
-
 /// Length of one period of an endless layer's plate along x and y, in picture pixels.
 Point plate_period(cv::Size picture, double output_scale);
 

@@ -1,29 +1,65 @@
 #pragma once
 
-/// `over`, seen from the front: `drawn` (premultiplied rgba, `count` pixels) goes under what is composed so far.
-/// Pixels whose `needed` is 0 are passed by; it becomes 0 where less than 1/10000 of what lies behind would be seen.
-/// The layer `index` becomes the owner of a pixel whose coverage from the front it brings to one half; until then
-/// the layer that contributes most owns it. Answers how many pixels are needed no more.
+#include <string.h>
+
+/// `over`, seen from the front: a run of a layer's pixels goes under what is composed so far.
+
+/// A run of pixels as far as they are composed. Up to three places behind its end are read, and written as they are;
+/// not those of `combined` and `needed`.
+struct StillwaterComposedRun {
+  float* combined;        // premultiplied rgba
+  float* through;         // share of what lies behind that is still seen
+  float* moving;          // share that comes from layers that move
+  float* most;            // largest contribution so far
+  int* owner;             // the layer at which coverage from the front reached one half, until then that of `most`
+  unsigned char* needed;  // 0 where less than 1/10000 of what lies behind would be seen
+};
+
+typedef float stillwater_four __attribute__((vector_size(16), aligned(4)));
+typedef int stillwater_lanes __attribute__((vector_size(16), aligned(4)));  // as a mask: all bits of a lane, or none
+
+static inline int stillwater_any(stillwater_lanes mask) {
+  long long half[2];
+  memcpy(half, &mask, sizeof half);
+  return (half[0] | half[1]) != 0;
+}
+
+/// `drawn` (premultiplied rgba, `count` pixels, three more may be read) goes under the run. Pixels that are not needed
+/// are passed by. The layer `index` becomes the owner of a pixel whose coverage from the front it brings to one half;
+/// until then the layer that contributes most owns it. Answers how many pixels are needed no more.
 static inline int stillwater_lay_under(const float* drawn, float opacity, float moves, int index, int count,
-                                       float* combined, float* through, float* moving, float* most, int* owner,
-                                       unsigned char* needed) {
-  typedef float v4 __attribute__((vector_size(16), aligned(4)));
+                                       const StillwaterComposedRun& run) {
+  const stillwater_lanes lane = {0, 1, 2, 3};
+  const stillwater_four none = {0, 0, 0, 0};
+  const float closed_below = 1e-4f;
   int closed = 0;
-  for (int i = 0; i < count; ++i) {
-    if (!needed[i]) continue;
-    const float behind = through[i], share = behind * opacity;
-    const float contribution = share * drawn[4 * i + 3];
-    if (contribution > 0) {
-      *(v4*)(combined + 4 * i) += share * *(const v4*)(drawn + 4 * i);
-      moving[i] += moves * contribution;
-      if (behind > 0.5f && (behind - contribution <= 0.5f || contribution > most[i])) {
-        most[i] = contribution;
-        owner[i] = index;
-      }
-      through[i] = behind - contribution;
-      needed[i] = through[i] > 1e-4f;
-      closed += !needed[i];
-    }
+  for (int i = 0; i < count; i += 4) {
+    stillwater_four& through = *(stillwater_four*)(run.through + i);
+    stillwater_four& most = *(stillwater_four*)(run.most + i);
+    stillwater_lanes& owner = *(stillwater_lanes*)(run.owner + i);
+    const stillwater_four behind = through, before = most;
+    const stillwater_lanes open = (behind > closed_below) & (lane < count - i);
+    if (!stillwater_any(open)) continue;
+
+    const float* colour = drawn + 4 * i;
+    const stillwater_four coverage = {colour[3], colour[7], colour[11], colour[15]};
+    const stillwater_four share = behind * opacity, covered = share * coverage;
+    const stillwater_lanes seen = open & (covered > 0.0f);
+    if (!stillwater_any(seen)) continue;
+    for (int k = 0; k < 4; ++k)
+      if (seen[k]) *(stillwater_four*)(run.combined + 4 * (i + k)) += share[k] * *(const stillwater_four*)(colour + 4 * k);
+
+    const stillwater_four contribution = seen ? covered : none;
+    const stillwater_four left = behind - contribution;
+    const stillwater_lanes owns = seen & (behind > 0.5f) & ((left <= 0.5f) | (contribution > before));
+    *(stillwater_four*)(run.moving + i) += moves * contribution;
+    most = owns ? contribution : before;
+    owner = owns ? lane - lane + index : owner;
+    through = left;
+    const stillwater_lanes done = open & (left <= closed_below);
+    if (!stillwater_any(done)) continue;
+    for (int k = 0; k < 4; ++k)
+      if (done[k]) run.needed[i + k] = 0, ++closed;
   }
   return closed;
 }

@@ -58,11 +58,22 @@ Rgba filled(const Rgba& colour, const Confidence& confidence) {
     known(y, x) = {pixel[0] * share, pixel[1] * share, pixel[2] * share, share};
   });
   const bool nothing = std::all_of(known.begin(), known.end(), [](const cv::Vec4f& pixel) { return pixel[3] <= 0; });
-  return nothing ? colour.clone() : push_pull(known);
+  if (nothing) return colour.clone();
+  fill_by_push_pull(known);
+  return known;
+}
+
+// A copy, of the picture's size.
+Plane whole_matte(const std::variant<Plane, MatteInBox>& matte, const cv::Size& picture) {
+  if (const Plane* whole = std::get_if<Plane>(&matte)) return whole->clone();
+  const auto& [pixels, box] = std::get<MatteInBox>(matte);
+  Plane whole = Plane::zeros(picture);
+  if (!box.empty()) pixels.copyTo(whole(box));
+  return whole;
 }
 
 Plane softened(const Plane& matte, double feather) {
-  if (feather < 1e-6) return matte.clone();  // of a narrower Gaussian OpenCV can't make a kernel
+  if (feather < 1e-6) return matte;  // of a narrower Gaussian OpenCV can't make a kernel
   Plane soft;
   cv::GaussianBlur(matte, soft, cv::Size(), feather / 2, feather / 2, cv::BORDER_REPLICATE);
   return soft;
@@ -74,11 +85,15 @@ void complete(Plane& matte, const Plane& hidden) {
   if (box.empty()) return;
   Plane part = matte(box);
   const Plane cover = hidden(box);
-  Rgba seen(part.size());
-  each_pixel(part.size(), [&](int y, int x) { seen(y, x) = cv::Vec4f::all(part(y, x)); });
-  const Rgba whole = filled(seen, [&](int y, int x) { return purity(cover(y, x)); });
+  cv::Mat_<cv::Vec2f> known(part.size());
   each_pixel(part.size(), [&](int y, int x) {
-    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(whole(y, x)[0])), 0.0f, 1.0f);
+    const float share = purity(cover(y, x));
+    known(y, x) = {part(y, x) * share, share};
+  });
+  if (std::all_of(known.begin(), known.end(), [](const cv::Vec2f& pixel) { return pixel[1] <= 0; })) return;
+  fill_by_push_pull(known);
+  each_pixel(part.size(), [&](int y, int x) {
+    if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(known(y, x)[0])), 0.0f, 1.0f);
   });
 }
 
@@ -91,7 +106,7 @@ class Peeling {
 
   // Takes one layer off, and leaves what lies behind it.
   LayerImage take(const PeelLayer& layer) {
-    Plane matte = softened(*layer.matte, layer.feather);
+    Plane matte = softened(whole_matte(*layer.matte, left_.size()), layer.feather);
     complete(matte, hidden_);
     const cv::Rect box = surroundings(matte);
     if (box.empty()) return {};
@@ -175,12 +190,19 @@ class Peeling {
   Plane solid_;   // 0 where nothing is behind them
 };
 
+void check_matte(const std::string& name, const std::variant<Plane, MatteInBox>& matte, const Rgba& picture) {
+  if (const Plane* whole = std::get_if<Plane>(&matte)) return check::same_size(name, *whole, "the picture", picture);
+  const auto& [pixels, box] = std::get<MatteInBox>(matte);
+  if ((box & cv::Rect(cv::Point(), picture.size())) != box || pixels.size() != box.size())
+    throw BadInput(name + ": its box does not fit its pixels and the picture");
+}
+
 void check_layers(const Rgba& picture, const std::vector<PeelLayer>& layers) {
   check::not_empty("picture", picture);
   for (size_t i = 0; i < layers.size(); ++i) {
     const std::string place = "layers[" + std::to_string(i) + "]";
     check::in_range(place + ".feather", layers[i].feather, 0, 1000, "px");
-    if (layers[i].matte) check::same_size(place + ".matte", *layers[i].matte, "the picture", picture);
+    if (layers[i].matte) check_matte(place + ".matte", *layers[i].matte, picture);
     else if (i + 1 < layers.size()) throw BadInput(place + ".matte: missing (only the last layer needs none)");
     if (const Rgba* painted = std::get_if<Rgba>(&layers[i].fill))
       check::same_size(place + ".fill", *painted, "the picture", picture);

@@ -16,8 +16,14 @@ enum class Fill {
   none,       ///< transparent behind what the layer covers wholly
 };
 
+/// A matte of which only a part is kept: `pixels`, 0..1, in `box`, and 0 outside of it.
+struct MatteInBox {
+  Plane pixels;  ///< box.height x box.width
+  cv::Rect box;  ///< picture pixels; empty for a layer without coverage
+};
+
 struct PeelLayer {
-  std::optional<Plane> matte;                ///< 0..1, size of the picture; only the last layer needs none
+  std::optional<std::variant<Plane, MatteInBox>> matte;  ///< 0..1, a Plane of the picture's size; the last needs none
   std::variant<Fill, Rgba> fill{Fill::push_pull};  ///< or a painted background, size of the picture
   double feather = 0;                        ///< softens the matte: a Gaussian of sigma feather / 2, px
 };
@@ -32,7 +38,7 @@ struct PeelLayer {
 ///   the matte itself says there.
 /// - The last layer without a matte covers the whole picture.
 ///
-/// Throws BadInput where sizes differ, a matte is missing, or a feather is not within 0 .. 1000; Cancelled where
+/// Throws BadInput where sizes differ, a matte is missing or reaches outside the picture, or a feather is not within 0 .. 1000; Cancelled where
 /// `progress`, asked after each layer, says so.
 std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers, Progress progress = {});
 

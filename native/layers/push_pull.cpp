@@ -13,37 +13,54 @@ namespace {
 // A pixel that knows a quarter of its surroundings speaks for them: holes close with what is near.
 constexpr float trust = 4;
 
-Rgba pushed(const Rgba& level) {
-  Rgba smaller;
+template <class Pixel>
+float coverage(const Pixel& pixel) {
+  return pixel[Pixel::channels - 1];
+}
+
+template <class Pixel>
+cv::Mat_<Pixel> pushed(const cv::Mat_<Pixel>& level) {
+  cv::Mat_<Pixel> smaller;
   cv::pyrDown(level, smaller);
-  for (cv::Vec4f& pixel : smaller)
-    if (pixel[3] > 0) pixel *= std::min(1.0f, trust * pixel[3]) / pixel[3];
+  for (Pixel& pixel : smaller)
+    if (coverage(pixel) > 0) pixel *= std::min(1.0f, trust * coverage(pixel)) / coverage(pixel);
   return smaller;
 }
 
-void lay_over(Rgba& level, const Rgba& below) {
+template <class Pixel>
+void lay_over(cv::Mat_<Pixel>& level, const cv::Mat_<Pixel>& below) {
   auto under = below.begin();
-  for (cv::Vec4f& pixel : level) {
-    if (pixel[3] < 1) pixel += (1 - pixel[3]) * *under;
+  for (Pixel& pixel : level) {
+    if (coverage(pixel) < 1) pixel += (1 - coverage(pixel)) * *under;
     ++under;
+  }
+}
+
+template <class Pixel>
+void push_and_pull(cv::Mat_<Pixel>& known) {
+  check::not_empty("known", known);
+  std::vector<cv::Mat_<Pixel>> levels{known};
+  while (levels.back().cols > 1 || levels.back().rows > 1) levels.push_back(pushed(levels.back()));
+  Pixel& last = levels.back()(0, 0);
+  if (!(coverage(last) > 0)) throw BadInput("known: nothing is known that could fill the rest");
+  last /= coverage(last);
+  for (size_t i = levels.size() - 1; i > 0; --i) {
+    cv::Mat_<Pixel> enlarged;
+    cv::pyrUp(levels[i], enlarged, cv::Size(2 * levels[i].cols, 2 * levels[i].rows));
+    levels.pop_back();
+    lay_over<Pixel>(levels[i - 1], enlarged(cv::Rect(0, 0, levels[i - 1].cols, levels[i - 1].rows)));
   }
 }
 
 }  // namespace
 
+void fill_by_push_pull(Rgba& known) { push_and_pull(known); }
+void fill_by_push_pull(cv::Mat_<cv::Vec2f>& known) { push_and_pull(known); }
+
 Rgba push_pull(const Rgba& known) {
-  check::not_empty("known", known);
-  std::vector<Rgba> levels{known.clone()};
-  while (levels.back().cols > 1 || levels.back().rows > 1) levels.push_back(pushed(levels.back()));
-  cv::Vec4f& last = levels.back()(0, 0);
-  if (!(last[3] > 0)) throw BadInput("known: nothing is known that could fill the rest");
-  last /= last[3];
-  for (size_t i = levels.size() - 1; i > 0; --i) {
-    Rgba enlarged;
-    cv::pyrUp(levels[i], enlarged, cv::Size(2 * levels[i].cols, 2 * levels[i].rows));
-    lay_over(levels[i - 1], enlarged(cv::Rect(0, 0, levels[i - 1].cols, levels[i - 1].rows)));
-  }
-  return levels[0];
+  Rgba filled = known.clone();
+  push_and_pull(filled);
+  return filled;
 }
 
 }  // namespace stillwater

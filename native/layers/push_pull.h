@@ -12,4 +12,8 @@ namespace stillwater {
 /// BadInput where nothing at all is known.
 Rgba push_pull(const Rgba& known);
 
+/// The same in place, of colours or of one quantity (premultiplied, with its coverage).
+void fill_by_push_pull(Rgba& known);
+void fill_by_push_pull(cv::Mat_<cv::Vec2f>& known);
+
 }  // namespace stillwater

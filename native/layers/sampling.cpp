@@ -53,12 +53,27 @@ void wrap(float* at, int count, int size) {
   for (int i = 0; i < count; ++i) at[i] -= period * std::floor(at[i] / period);
 }
 
+// Smallest and largest of at least one number; no numbers where one of them is none.
 struct Range {
   float low, high;
 
   Range(const float* at, int count) {
-    static const auto find = has_avx2() ? stillwater_range_avx2 : sampling_range;
-    find(at, count, &low, &high);
+    constexpr int lanes = 4;
+    stillwater_v4 smallest, largest, nothing;  // x - x is 0 for numbers only
+    for (int k = 0; k < lanes; ++k) {
+      const float number = at[std::min(k, count - 1)];
+      smallest[k] = largest[k] = number;
+      nothing[k] = number - number;
+    }
+    for (int i = std::min(lanes, count % lanes); i + lanes <= count; i += lanes) {
+      const stillwater_v4 here = *reinterpret_cast<const stillwater_v4u*>(at + i);
+      smallest = here < smallest ? here : smallest;
+      largest = here > largest ? here : largest;
+      nothing += here - here;
+    }
+    const float no_number = nothing[0] + nothing[1] + nothing[2] + nothing[3];
+    low = std::min({smallest[0], smallest[1], smallest[2], smallest[3]}) + no_number;
+    high = std::max({largest[0], largest[1], largest[2], largest[3]}) + no_number;
   }
 
   bool within(int size) const { return low >= 0 && high <= static_cast<float>(size - 1); }
@@ -74,16 +89,24 @@ Range bring_inside(float* at, int count, int size, const Beyond& beyond) {
   return Range(at, count);
 }
 
-int border_of(const Beyond& beyond) { return beyond.wraps ? cv::BORDER_WRAP : cv::BORDER_REFLECT; }
-
 }  // namespace
 
 Source::Source(const Rgba& image, Beyond across, Beyond down)
     : across_(across), down_(down), width_(image.cols), height_(image.rows) {
   if (empty()) return;
-  Rgba wide;
-  cv::copyMakeBorder(image, wide, 0, 0, frame, frame, border_of(across));
-  cv::copyMakeBorder(wide, padded_, frame, frame, 0, 0, border_of(down));
+  padded_.create(height_ + 2 * frame, width_ + 2 * frame);
+  const auto inside = [](int at, int size, const Beyond& beyond) {
+    return cv::borderInterpolate(at, size, beyond.wraps ? cv::BORDER_WRAP : cv::BORDER_REFLECT);
+  };
+  for (int y = -frame; y < height_ + frame; ++y) {
+    const cv::Vec4f* row = image[inside(y, height_, down)];
+    cv::Vec4f* out = padded_[y + frame] + frame;
+    std::copy_n(row, width_, out);
+    for (int x = 1; x <= frame; ++x) {
+      out[-x] = row[inside(-x, width_, across)];
+      out[width_ - 1 + x] = row[inside(width_ - 1 + x, width_, across)];
+    }
+  }
   map_coverage();
 }
 

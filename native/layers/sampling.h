@@ -23,6 +23,11 @@ class Source {
   int width() const { return width_; }
   int height() const { return height_; }
   bool empty() const { return width_ == 0; }
+  Beyond across() const { return across_; }
+  Beyond down() const { return down_; }
+
+  /// The image, in this object's memory.
+  Rgba pixels() const { return padded_(cv::Rect(frame, frame, width_, height_)); }
 
   /// True where no pixel within the rectangle (index coordinates; may reach beyond the sides, no further than it
   /// reaches inside) has any coverage.

@@ -38,5 +38,3 @@ void stillwater_sample_avx2(const float* origin, ptrdiff_t stride, const float* 
     _mm_storeu_ps(out + 4 * i, (__m128)within_coverage((stillwater_v4)colour));
   }
 }
-
-void stillwater_range_avx2(const float* at, int count, float* low, float* high) { sampling_range(at, count, low, high); }

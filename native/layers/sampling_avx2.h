@@ -5,6 +5,3 @@
 /// The AVX2 form of Source::sample for at most 64 places that lie within the framed image.
 void stillwater_sample_avx2(const float* origin, ptrdiff_t stride, const float* x, const float* y,
                             const unsigned char* needed, int count, float* out);
-
-/// Smallest and largest of at least one number.
-void stillwater_range_avx2(const float* at, int count, float* low, float* high);

@@ -15,32 +15,6 @@ struct SamplingWeights {
   int column[64], row[64];
 };
 
-// Smallest and largest of at least one number, `lanes` at a time; no numbers where one of them is none.
-static inline void sampling_range(const float* at, int count, float* low, float* high) {
-  typedef float lanes __attribute__((vector_size(32), aligned(4)));
-  lanes smallest, largest, nothing = {0, 0, 0, 0, 0, 0, 0, 0};  // x - x is 0 for numbers only
-  for (int k = 0; k < 8; ++k) smallest[k] = largest[k] = at[0];
-  int i = 0;
-  for (; i + 8 <= count; i += 8) {
-    const lanes here = *(const lanes*)(at + i);
-    smallest = here < smallest ? here : smallest;
-    largest = here > largest ? here : largest;
-    nothing += here - here;
-  }
-  for (; i < count; ++i) {
-    smallest[0] = at[i] < smallest[0] ? at[i] : smallest[0];
-    largest[0] = at[i] > largest[0] ? at[i] : largest[0];
-    nothing[0] += at[i] - at[i];
-  }
-  for (int k = 1; k < 8; ++k) {
-    smallest[0] = smallest[k] < smallest[0] ? smallest[k] : smallest[0];
-    largest[0] = largest[k] > largest[0] ? largest[k] : largest[0];
-    nothing[0] += nothing[k];
-  }
-  *low = smallest[0] + nothing[0];
-  *high = largest[0] + nothing[0];
-}
-
 static inline void catmull_rom_weights(const float* at, int count, int* whole, float (*weights)[64]) {
   for (int i = 0; i < count; ++i) {
     const int cut = (int)at[i];

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -9,17 +10,16 @@ import tempfile
 from pathlib import Path
 
 from bench import Row, medians
+from scenes import LARGE, Bed, write_recipe
+from stillwater import _stillwater as engine
 
 
 def rows():
     yield _together()
-    yield _memory()
+    yield from _memory()
 
 
 def _together() -> Row:
-    from scenes import LARGE, Bed
-    from stillwater import _stillwater as engine
-
     bed = Bed(LARGE)
     kept = bed.next_frame(flow=True)
     with tempfile.TemporaryDirectory() as folder:
@@ -34,29 +34,22 @@ def _together() -> Row:
     return Row("bake of 1920x1080, 29 layers (computing + writing alone)", both * 1e3, (compute + writing) * 1e3, 1.1)
 
 
-def _memory() -> Row:
-    """Peak above the process after import, against 2 x the layers' boxes in float RGBA + 6 frames."""
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
-    program = "import bake; bake.measure_memory()"
-    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True, timeout=300)
-    peak, boxes = map(float, done.stdout.split())
-    frame = 1920 * 1080 * 4 * 4
-    return Row("memory of that, above the process after import", peak / 1e6, (2 * boxes * 16 + 6 * frame) / 1e6, 1.0, "MB")
+def _memory():
+    """What `render` takes at most, above the same process after import, against 2 x the layers' boxes in float RGBA + 6
+    frames: from its files to the first frame, and with the layers in the cache, as all later bakes of a picture are."""
+    with tempfile.TemporaryDirectory() as folder:
+        recipe = write_recipe(LARGE, Path(folder))
+        preparing = _peak("render", recipe, "--frames", "1-1")
+        baking = _peak("render", recipe, "--frames", "2-9")
+        (facts,) = (json.loads(meta.read_text()) for meta in Path(folder).glob(".stillwater-cache/*/meta.json"))
+    boxes = sum(width * height for _, _, width, height in facts["colour"])
+    reference = (2 * boxes + 6 * LARGE.width * LARGE.height) * 4 * 4
+    yield Row("memory of that, above the process after import", baking / 1e6, reference / 1e6, 1.0, "MB")
+    yield Row("memory of cutting its layers and a first frame", preparing / 1e6, reference / 1e6, 1.0, "MB")
 
 
-def measure_memory() -> None:
-    """Prints the bytes of the renderer and its frames (resident, not counting what making the scene took), and the
-    layers' boxes in pixels."""
-    import gc
-
-    from scenes import LARGE, Bed
-
-    def resident() -> int:
-        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-    before = resident()
-    bed = Bed(LARGE)
-    gc.collect()
-    for _ in range(3):
-        bed.next_frame(flow=True)
-    print(resident() - before, bed.boxes)
+def _peak(*arguments) -> int:
+    """Bytes that a command line held at most, beyond those it held when all was imported."""
+    command = [sys.executable, str(Path(__file__).with_name("peak.py")), *map(str, arguments), "--progress", "none"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300)
+    return int(done.stdout)

@@ -6,9 +6,12 @@ the rim that is neither 0 nor 1 takes a fixed share of it.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from PIL import Image
 from stillwater import _stillwater as engine
 
 SOFT_SHARE = 0.12  # of a layer's area
@@ -46,6 +49,44 @@ def view(scene: Scene):
 def moment(frame: int):
     wind = engine.Wind(speed=6, gusts=0.3, travel=(6 * (frame - 1) / 24, 0))
     return engine.Moment(frame=frame, fps=24, wind=wind)
+
+
+def write_recipe(scene: Scene, folder: Path) -> Path:
+    """The scene as files, 8 bits each: its picture, its mattes and its recipe, whose path is the answer."""
+
+    def save(name: str, image) -> str:
+        Image.fromarray(np.rint(255 * image).astype(np.uint8)).save(folder / name, compress_level=1)
+        return name
+
+    layers = [{"name": "back"}]
+    for i, matte in reversed(list(enumerate(_shapes(scene)))):
+        rows, columns = np.flatnonzero(matte.any(axis=1)), np.flatnonzero(matte.any(axis=0))
+        box = (columns[0], rows[0], columns[-1] - columns[0] + 1, rows[-1] - rows[0] + 1)
+        motion = _recipe_motion(_motion(scene, i, tuple(map(int, box))), scene)
+        layers.insert(0, {"name": str(i), "matte": {"file": save(f"{i}.png", matte)}, "motion": motion})
+    recipe = {
+        "stillwater": 1,
+        "picture": save("picture.png", _noise(scene)[..., :3]),
+        "frames": [1, 48],
+        "wind": {"speed": 6, "gusts": 0.3},
+        "view": {"horizon": view(scene).horizon},
+        "layers": layers,
+    }
+    path = folder / "recipe.json"
+    path.write_text(json.dumps(recipe))
+    return path
+
+
+def _recipe_motion(motion, scene: Scene) -> dict:
+    match motion:
+        case engine.Ripple():
+            return {"type": "ripple"}
+        case engine.Drift():
+            return {"type": "drift", "velocity": [0.7, 0]}
+        case engine.Bob():
+            return {"type": "bob", "water": str(scene.layers - 2), "waterline": motion.waterline}
+        case _:
+            return {"type": "sway", "armature": motion.armature, "seed": motion.seed}
 
 
 class Bed:

@@ -131,6 +131,21 @@ def test_a_matte_that_covers_all_leaves_the_picture_behind_it():
     assert np.array_equal(laid_over(peel(image, [np.ones(SIZE, np.float32), None])[1:]), image)
 
 
+def test_a_matte_in_a_box_is_that_matte():
+    image, mattes = picture(), [soft(box_matte(5, 20, 8, 30)), box_matte(15, 40, 20, 64), np.zeros(SIZE, np.float32)]
+    boxes = [(6, 3, 26, 19), (20, 15, 44, 25), (0, 0, 0, 0)]
+    parts = [engine.MatteInBox(m[y : y + h, x : x + w].copy(), (x, y, w, h)) for m, (x, y, w, h) in zip(mattes, boxes, strict=True)]
+    assert [tuple(part.box) for part in parts] == boxes
+    for whole, part in zip(peel(image, [*mattes, None]), peel(image, [*parts, None]), strict=True):
+        assert whole.box == part.box and np.array_equal(whole.pixels, part.pixels)
+
+
+def test_a_matte_that_reaches_outside_the_picture_is_refused():
+    part = engine.MatteInBox(np.ones((4, 5), np.float32), (60, 0, 5, 4))
+    with pytest.raises(ValueError, match=r"layers\[0\].matte: its box does not fit its pixels and the picture"):
+        peel(picture(), [part, None])
+
+
 def test_a_layer_from_arrays_shares_their_memory():
     pixels = np.ones((4, 5, 4), np.float32)
     layer = engine.LayerImage(pixels, (1, 2, 5, 4))
@@ -153,9 +168,10 @@ def test_what_does_not_fit_is_refused(mattes, fills, feathers, sentence):
         peel(picture(), mattes, fills, feathers)
 
 
-def test_a_box_that_is_not_that_of_the_pixels_is_refused():
+@pytest.mark.parametrize("part, channels", [(engine.LayerImage, (4,)), (engine.MatteInBox, ())])
+def test_a_box_that_is_not_that_of_the_pixels_is_refused(part, channels):
     with pytest.raises(ValueError, match="box: its size is not that of the pixels"):
-        engine.LayerImage(np.zeros((4, 5, 4), np.float32), (0, 0, 4, 5))
+        part(np.zeros((4, 5, *channels), np.float32), (0, 0, 4, 5))
 
 
 def test_progress_is_told_and_can_cancel():

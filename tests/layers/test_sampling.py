@@ -81,6 +81,17 @@ def test_places_that_are_no_numbers_sample_inside():
     assert np.isfinite(engine.displace(OPAQUE, constant_map(np.nan, np.inf))).all()
 
 
+@pytest.mark.parametrize("width", range(1, 10))
+def test_runs_of_any_length(width):
+    """Also with one place that is no number or lies far outside, wherever it is in the run."""
+    for odd in range(width):
+        for far in (np.nan, 1e4, -1e4):
+            map = RNG.normal(0, 2, (1, width, 2)).astype(np.float32)
+            map[0, odd, 0] = far
+            wide = np.concatenate([map, RNG.normal(0, 2, (1, 60, 2)).astype(np.float32)], axis=1)
+            assert np.array_equal(engine.displace(OPAQUE, map), engine.displace(OPAQUE, wide)[:, :width])
+
+
 def test_the_plain_way_gives_the_same(tmp_path):
     rng = np.random.default_rng(2)
     image = rng.random((50, 70, 4), np.float32)

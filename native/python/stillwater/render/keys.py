@@ -17,14 +17,14 @@ from .resolve import Now, Timeline
 # Raised by who changes what an engine computes: frames and preparations made by another version are made again.
 ENGINES = {
     "picture": 1,
-    "layers": 3,
+    "layers": 4,
     "frame": 3,
     "wind": 1,
     "still": 1,
     "sway": 1,
     "ripple": 1,
     "bob": 1,
-    "drift": 1,
+    "drift": 2,
 }
 
 

@@ -1,66 +1,101 @@
 """How much memory a render will need at most, before it starts.
 
-The larger of two moments: cutting the layers (picture, mattes, the layers so far and the widest one at work), and
-rendering (the layers, mapped and made ready, and the frame at work). A test holds it within 20 % of the measured peak.
+The largest of three moments: cutting the layers (picture, mattes, the layers so far and the widest one at work),
+making them ready (those from the cache, mapped, and what is made of them), and rendering (what is ready, and the frame
+at work). A test holds it within 20 % of the measured peak.
 """
 
-from ..recipe.stochastic import Drift
+import math
+
+import numpy as np
+
+from .. import _stillwater as engine
+from ..recipe.mattes import FileFill
 
 PROCESS = 170e6  # Python and the engine's libraries
 RGBA, PLANE = 16, 4  # bytes a pixel
-LEFT = RGBA + 2 * PLANE  # what is left of the picture, what hides it, what is solid
+LEFT = RGBA + 3 * PLANE  # what is left of the picture, what hides it, what is solid, the matte at work
 AT_WORK = 7 * RGBA  # a layer that is being cut: its colour, the one behind, and the pyramids they come from
-FRAME = 52  # picture, flow, matte, and what is written of them
+FRAME = 28  # picture, flow, matte
+WRITTEN, WRITTEN_AT_ONCE = 30, 64 << 20  # what is written of them; bytes of it that are held
+TRIED_OUT = 128  # pixels
+CLEAR = 2  # pixels around a layer that was cut
 STRIP = 1.25  # an endless layer's period, of its side
-BLURRED = 2.5  # a drift, its blurred copy, and what that is made of
+TURNED = 1.8  # an endless layer that is being made ready, beside itself: on its canvas, and one period of it
 
 
 def needed_bytes(job) -> float:
     """For a Job whose files are checked."""
     if job.stack is not None:
         return PROCESS + _rendering(job, job.boxes)
-    boxes = _behind(job.boxes)
+    boxes = _behind(job)
     return PROCESS + max(_cutting(job, boxes), _rendering(job, boxes))
 
 
-def _behind(boxes: list) -> list:
-    """The boxes as they will be: a layer goes on behind those in front that it touches."""
-    grown, hidden = [], None
-    for x, y, width, height in boxes:
-        sides = (x, y, x + width, y + height)
-        if width and hidden is not None:
-            low, high = (max(sides[i], hidden[i]) for i in (0, 1)), (min(sides[i], hidden[i]) for i in (2, 3))
-            if all(a <= b for a, b in zip(low, high, strict=True)):
-                sides = _union(sides, hidden)
-        if width:
-            hidden = sides if hidden is None else _union(sides, hidden)
-        grown.append((sides[0], sides[1], sides[2] - sides[0], sides[3] - sides[1]))
-    return grown
+def _behind(job) -> list:
+    """The boxes as they will be: a layer goes on behind those in front. Tried out on a small copy."""
+    height, width = job.images.picture.shape[:2]
+    step = math.ceil(max(width, height) / TRIED_OUT)
+    picture = np.ascontiguousarray(job.images.picture[::step, ::step])
+    mattes = [None if matte is None else _small(matte, picture.shape[:2], step) for matte in job.images.mattes]
+    fills, feathers = [engine.Fill.push_pull] * len(mattes), [0.0] * len(mattes)
+    layers = engine.peel(picture, mattes, fills, feathers)
+    return [_grown(own, layer.box, step, (width, height)) for own, layer in zip(job.boxes, layers, strict=True)]
+
+
+def _grown(own, small, step: int, size: tuple[int, int]) -> tuple:
+    """A box of the picture and what the small copy's, with its clear sides, says of it."""
+    if not (_area(own) and _area(small)):
+        return own
+    ends = []
+    for at in (0, 1):
+        low, high = small[at], small[at] + small[at + 2]
+        low = step * (low + CLEAR) if low > 0 else 0
+        high = step * (high - CLEAR) if step * high < size[at] else size[at]
+        ends.append((min(own[at], low), max(own[at] + own[at + 2], high)))
+    (left, right), (top, bottom) = ends
+    return left, top, right - left, bottom - top
+
+
+def _small(matte, shape, step) -> np.ndarray:
+    """Every `step`-th row and column of a matte."""
+    x, y, _, _ = matte.box
+    part = matte.pixels[-y % step :: step, -x % step :: step]
+    top, left = -(-y // step), -(-x // step)
+    small = np.zeros(shape, np.float32)
+    small[top : top + part.shape[0], left : left + part.shape[1]] = part
+    return small
 
 
 def _cutting(job, boxes) -> float:
     pixels = job.sources.size[0] * job.sources.size[1]
-    with_matte = [box for box, layer in zip(boxes, job.recipe.layers, strict=True) if layer.matte is not None]
+    with_matte = [i for i, layer in enumerate(job.recipe.layers) if layer.matte is not None]
+    mattes = PLANE * sum(_area(job.boxes[i]) for i in with_matte)
+    fills = RGBA * pixels * sum(isinstance(layer.fill, FileFill) for layer in job.recipe.layers[:-1])
     layers = RGBA * sum(map(_area, boxes)) * (2 if job.has_alpha else 1)
-    return pixels * (RGBA + PLANE * len(with_matte) + LEFT) + layers + AT_WORK * max(map(_area, with_matte), default=0)
+    at_work = AT_WORK * max((_area(boxes[i]) for i in with_matte), default=0)
+    return pixels * (RGBA + LEFT) + mattes + fills + layers + at_work
 
 
 def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
-    pixels = job.sources.size[0] * job.sources.size[1]
-    layers = 0.0
+    canvas = RGBA * job.sources.size[0] * job.sources.size[1]
+    cut, ready, at_work = 0.0, 0.0, canvas if shrunk < 1 else 0.0
     for layer, box, endless in zip(job.recipe.layers, boxes, job.timeline.endless, strict=True):
-        ready = pixels * (STRIP if endless[0] else 1) * (STRIP if endless[1] else 1) if any(endless) else _area(box)
-        copies = BLURRED if isinstance(layer.motion, Drift) else 1
-        layers += RGBA * (_area(box) + shrunk * ready * copies * layer.visible)
+        cut += RGBA * _area(box)
+        if not layer.visible:
+            continue
+        width = STRIP * job.sources.size[0] if endless[0] else box[2]
+        height = STRIP * job.sources.size[1] if endless[1] else box[3]
+        plate = RGBA * shrunk * width * height
+        ready += plate
+        if any(endless):
+            at_work = max(at_work, TURNED * plate)
     if job.has_alpha:
-        layers *= 2
+        cut, ready = 2 * cut, 2 * ready
     own = RGBA * sum(layer.visible for layer in job.recipe.layers) if job.recipe.output.layers else 0
-    return layers + job.size[0] * job.size[1] * (FRAME + own)
-
-
-def _union(a, b) -> tuple:
-    return min(a[0], b[0]), min(a[1], b[1]), max(a[2], b[2]), max(a[3], b[3])
+    pixels = job.size[0] * job.size[1]
+    return ready + max(cut + at_work, pixels * (FRAME + own) + min(pixels * (WRITTEN + own), WRITTEN_AT_ONCE))
 
 
 def _area(box) -> int:

@@ -19,11 +19,11 @@ LARGEST_SIDE = 16384
 
 @dataclass
 class Images:
-    """What the files hold: picture H x W x 4 premultiplied, mattes H x W or None, fills for peel()."""
+    """What the files hold: picture H x W x 4 premultiplied, mattes (engine.MatteInBox or None) and fills for peel()."""
 
     picture: np.ndarray
     has_alpha: bool
-    mattes: list[np.ndarray | None] = field(default_factory=list)
+    mattes: list = field(default_factory=list)
     fills: list = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 
@@ -77,7 +77,7 @@ class Sources:
     def _path(self, name: str):
         return self.document.locate(name)
 
-    def _matte(self, i, layer, images: Images, labels: dict) -> np.ndarray | None:
+    def _matte(self, i, layer, images: Images, labels: dict):
         place = f"layers[{i}].matte"
         match layer.matte:
             case FileMatte(file=name, channel=channel):
@@ -91,9 +91,10 @@ class Sources:
             case None:
                 return None
         self._check_size(f"{place}: {layer.matte.file if isinstance(layer.matte, FileMatte) else layer.matte.labels}", matte, images)
-        if not matte.any():
+        x, y, width, height = box = _box(matte)
+        if not width:
             images.warnings.append(f"layers[{i}].matte: covers no pixel; the layer is not seen")
-        return matte
+        return engine.MatteInBox(matte[y : y + height, x : x + width].copy(), box)
 
     def _fill(self, i, layer, images: Images, _labels):
         if i + 1 == len(self.recipe.layers):
@@ -182,7 +183,7 @@ def check_view(recipe: Recipe, boxes: list) -> None:
 def boxes_of(images: Images) -> list[tuple[int, int, int, int]]:
     """Where each matte is above 0: x, y, width, height."""
     height, width = images.picture.shape[:2]
-    return [(0, 0, width, height) if matte is None else _box(matte) for matte in images.mattes]
+    return [(0, 0, width, height) if matte is None else tuple(matte.box) for matte in images.mattes]
 
 
 def _box(matte: np.ndarray) -> tuple[int, int, int, int]:

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "frame/displaced_layer.h"
+
+namespace stillwater {
+
+/// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half
+/// way. M is the layer, blurred: what does not change where the copies differ; rho is how alike the layer is to itself
+/// at the distance of the copies. Of straight colours; coverage dissolves.
+///
+///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2 + 2 w1 w2 rho),   M = w1 M1 + w2 M2
+class CrossFade {
+ public:
+  /// Of the layer with this plate.
+  explicit CrossFade(const Plate& plate);
+
+  /// The layer at one moment. `plate`: the same. The answer refers to both.
+  std::unique_ptr<LayerMotion> at(const Plate& plate, const Placement& now, const Travel& travel) const;
+
+ private:
+  friend class CrossFadedLayer;
+
+  void sample_mean(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
+  std::vector<float> beside_mean(const Plate& plate, int row) const;
+  double measured_likeness(const Plate& plate, cv::Point apart) const;
+  double likeness(const Plate& plate, cv::Point apart) const;
+
+  Source mean_;           ///< on a coarse grid: nothing small is left in it
+  float columns_ = 1, rows_ = 1;  ///< of the mean for one of the plate
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<int, int>, double> likeness_;  ///< by the distance of the copies, measured once: a loop has two
+};
+
+}  // namespace stillwater
