@@ -19,7 +19,7 @@ bpy.context.preferences.view.show_splash = False  # before the first redraw
 sys.path.insert(0, str(Path(__file__).parent))
 from window import Window  # noqa: E402
 
-TEST_LIMIT = 90  # s, one test
+TEST_LIMIT = 180  # s, one test
 
 
 def tests_of(path: Path) -> list:

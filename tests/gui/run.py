@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-FILE_LIMIT = 300  # s, one file
+FILE_LIMIT = 600  # s, one file
 SIZE = (1600, 1000)
 
 

@@ -1,7 +1,8 @@
 """Blender's window as a person has it: looked at through screenshots, worked with mouse and keys.
 
 Whatever takes time is a generator: `yield from window.click("Bake")`. A `yield` lets Blender handle its events and draw
-once; `yield 0.2` lets it run for that many seconds. Places are in Blender's pixels, from the window's lower left corner.
+once; `yield 0.2` lets it run for that many seconds. Places are in pixels from the screen's lower left corner. Where a
+file browser or a render has opened a window of its own, that one is meant.
 """
 
 import subprocess
@@ -13,7 +14,7 @@ import bpy
 import lettering
 import numpy as np
 
-PATIENCE = 20  # s: until something has to show
+PATIENCE = 60  # s: until something has to show
 SETTLED = 4  # redraws after which an input has had its effect
 
 KEYS = dict(zip("0123456789", "ZERO ONE TWO THREE FOUR FIVE SIX SEVEN EIGHT NINE".split()))
@@ -21,7 +22,7 @@ KEYS |= {".": "PERIOD", ",": "COMMA", "-": "MINUS", "/": "SLASH", " ": "SPACE", 
 
 
 class Box(NamedTuple):
-    """A rectangle of the window."""
+    """A rectangle of the screen."""
 
     x: int
     y: int
@@ -42,18 +43,19 @@ class Window:
 
     @property
     def _window(self):
-        return bpy.context.window_manager.windows[0]
+        """The newest: it lies over the others."""
+        return bpy.context.window_manager.windows[-1]
 
     # -- looking
 
     def pixels(self, box: Box | None = None) -> np.ndarray:
         """What the screen shows now: H x W x 3, 0..255, rows top to bottom."""
-        size = self._window.height, self._window.width
+        height = bpy.context.window_manager.windows[0].height  # fills the screen
         raw = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], capture_output=True, timeout=30)
-        shown = np.frombuffer(raw.stdout, np.uint8).reshape(*size, 3)
+        shown = np.frombuffer(raw.stdout, np.uint8).reshape(height, -1, 3)
         if box is None:
             return shown
-        return shown[size[0] - box.y - box.height : size[0] - box.y, box.x : box.x + box.width]
+        return shown[height - box.y - box.height : height - box.y, box.x : box.x + box.width]
 
     def screenshot(self, name: str):
         """Leaves NAME.png among the screens."""
@@ -67,14 +69,18 @@ class Window:
         assert areas, f"no {kind} among {[area.type for area in self._window.screen.areas]}"
         return max(areas, key=lambda area: area.width * area.height)
 
+    def has(self, kind: str) -> bool:
+        """Whether the window shows an editor of this kind."""
+        return any(area.type == kind for area in self._window.screen.areas)
+
     def box(self, kind: str, region: str = "WINDOW") -> Box:
         """Where a region of an editor is ("UI" is its sidebar)."""
         found = next(r for r in self.area(kind).regions if r.type == region)
-        return Box(found.x, found.y, found.width, found.height)
+        return Box(self._window.x + found.x, self._window.y + found.y, found.width, found.height)
 
     def places(self, text: str, inside: Box | None = None, turned: bool = False) -> list[tuple[int, int]]:
         """The middles of all places where `text` is to be read, best first; `turned` as on a sidebar's tabs."""
-        inside = inside or Box(0, 0, self._window.width, self._window.height)
+        inside = inside or Box(self._window.x, self._window.y, self._window.width, self._window.height)
         word = lettering.drawn(text)
         found = lettering.places(self.pixels(inside).mean(2), np.rot90(word, -1) if turned else word)
         return [(inside.x + x, inside.y + inside.height - 1 - y) for x, y in found]
@@ -165,7 +171,7 @@ class Window:
         """The call of the button under the mouse; empty where there is none that calls an operator."""
         for area in self._window.screen.areas:
             for region in area.regions:  # a sidebar lies over the main region
-                x, y = self._mouse[0] - region.x, self._mouse[1] - region.y
+                x, y = self._mouse[0] - self._window.x - region.x, self._mouse[1] - self._window.y - region.y
                 if 0 <= x < region.width and 0 <= y < region.height and region.type != "WINDOW":
                     with bpy.context.temp_override(window=self._window, area=area, region=region):
                         if not bpy.ops.ui.copy_python_command_button.poll():
@@ -200,6 +206,12 @@ class Window:
         yield from self.type(text)
         yield from self.key("RET")
 
+    def open_file(self, path: Path, button: str):
+        """Types a file's path into the open file browser, and clicks on the button that ends it."""
+        yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path))
+        yield from self.key("RET")  # what it made of the path stands in the field for the name, which takes letters now
+        yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
+
     def _send(self, kind: str, value: str, **more):
-        x, y = self._mouse
-        self._window.event_simulate(kind, value, x=x, y=y, **more)
+        window = self._window
+        window.event_simulate(kind, value, x=self._mouse[0] - window.x, y=self._mouse[1] - window.y, **more)
