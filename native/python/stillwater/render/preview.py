@@ -3,8 +3,7 @@
 `prepare` makes it, as slowly as it must; `find` looks whether it is there, and reads no file but the cache's.
 """
 
-from collections.abc import Callable, Generator
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -13,22 +12,14 @@ from .. import _stillwater as engine
 from ..recipe import Document, Recipe
 from ..recipe.parts import Keys
 from ..recipe.stochastic import Bob, Drift, Sway
-from .cache import FOLDER, Cache, Prepared
+from .cache import Cache, Prepared
 from .errors import Failed
-from .events import Event, Preparing, Warn
+from .events import Event, Preparing, Ready, Warn
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
 from .prepare import Sources, cut, digests_of, filled_otherwise, layer_images
 
 PARTS = ("colour", "alpha")
-
-
-@dataclass(frozen=True)
-class Ready:
-    """A preparation that is there. `files`: size, time and hash of each file it was made of, for Cache.learn()."""
-
-    key: str
-    files: dict[str, list]
 
 
 def find(document: Document, cache: Cache, longest: int) -> tuple[str, Prepared] | None:
@@ -44,13 +35,12 @@ def find(document: Document, cache: Cache, longest: int) -> tuple[str, Prepared]
     return (key, prepared) if prepared else None
 
 
-def prepare(document: Document, longest: int, beat: Callable = lambda: None) -> Generator[Event, None, Ready]:
-    """Prepares the layers for frames whose longer side is `longest` pixels, at most the picture's.
+def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lambda: None) -> Iterator[Event]:
+    """Prepares the layers for frames whose longer side is `longest` pixels, at most the picture's. The last event is Ready.
 
     `beat` is called again and again while it lasts, and may end it by raising. Throws RecipeError; Failed where the
     cache can't be written.
     """
-    cache = Cache(document.folder / FOLDER)
     sources = Sources(document, cache)
     key = _key(sources.key, longest)
     yield from map(Warn, filled_otherwise(document.recipe))
@@ -69,7 +59,7 @@ def prepare(document: Document, longest: int, beat: Callable = lambda: None) -> 
     if cache.trouble:
         raise Failed(cache.trouble)
     yield Preparing(1, "done")
-    return Ready(key, {str(path.resolve()): _file(path, digest) for path, digest in _located(document, sources)})
+    yield Ready(key, {str(path.resolve()): _file(path, digest) for path, digest in _located(document, sources)})
 
 
 def _key(stack: str, longest: int) -> str:
