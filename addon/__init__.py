@@ -8,14 +8,15 @@
     compositor   the node that shows the frames
     layers       the list of layers, their motions, wind and view
     bake         the worker that makes the frames
+    play         the picture in motion in the viewport, with no bake
     pictures     from a file on disk to a picture that can be drawn on, and away again
 
 Each room registers its own classes: properties, operators and the panels that show them.
 """
 
-from . import bake, compositor, engine, layers, pictures, properties, ui
+from . import bake, compositor, engine, layers, pictures, play, properties, ui
 
-ROOMS = [properties, ui, compositor, layers, bake, pictures]
+ROOMS = [properties, ui, compositor, layers, bake, play, pictures]
 
 
 def register():

@@ -55,3 +55,15 @@ def worker_command() -> list[str]:
         raise ValueError(_problem)
     site = str(Path(_engine.__file__).resolve().parents[1])
     return [sys.executable, "-I", "-c", _START.format(site=site)]
+
+
+def serve_command() -> list[str]:
+    """What starts `python -m stillwater serve`. Throws ValueError without an engine."""
+    return [*worker_command(), "serve"]
+
+
+def live():
+    """A new stillwater.Live. Throws ValueError without an engine."""
+    if _engine is None:
+        raise ValueError(_problem)
+    return _engine.Live()

@@ -109,6 +109,7 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     plane: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the image Empty that shows it (plane.py)
     camera: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # sees just the plane
     strokes: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the grease pencil drawn on it
+    image: PointerProperty(type=bpy.types.Image, options={"HIDDEN"})  # the file as plane and node show it (image.py)
     picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
     active_layer: IntProperty(min=0, options={"HIDDEN"})
 

@@ -40,6 +40,11 @@ def in_both_editors(name: str, part: type) -> list[type]:
     return [_panel(editor, name, part) for editor in EDITORS]
 
 
+def in_viewport(name: str, part: type) -> list[type]:
+    """The panel of the 3D viewport alone, about what only it shows."""
+    return [_panel("VIEW_3D", name, part)]
+
+
 def _panel(editor: str, name: str, part: type) -> type:
     parent = f"STILLWATER_PT_{editor.lower()}"
     place = {"bl_space_type": editor, **({"bl_parent_id": parent} if name else {})}

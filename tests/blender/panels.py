@@ -27,7 +27,7 @@ class Recorder:
     def progress(self, factor=0.0, text=""):
         self.texts.append(text)
 
-    def prop(self, data, name, text="", icon="NONE", emboss=True):
+    def prop(self, data, name, text="", icon="NONE", emboss=True, expand=False):
         getattr(data, name)
         assert icon in ICONS
         self.properties.append(name)

@@ -2,7 +2,7 @@
 
 A request is a line of JSON on standard input, an answer one on standard output, with the request's `id`:
 
-    {"id": 1, "do": "prepare", "recipe": "lake/recipe.json", "longest": 960}
+    {"id": 1, "do": "prepare", "recipe": "lake/recipe.json", "folder": "lake", "longest": 960}
     {"id": 1, "event": "preparing", "share": 0.4, "what": "cutting the layers"}
     {"id": 1, "event": "done", "key": ..., "files": ...}        or "error" with a sentence, or "cancelled"
     {"id": 1, "do": "cancel"}
@@ -11,6 +11,7 @@ One request is worked on at a time. A newer one for the same recipe cancels the 
 """
 
 import sys
+from pathlib import Path
 from typing import Annotated
 
 import msgspec
@@ -26,9 +27,13 @@ class Request(Struct, tag_field="do", tag=str.lower, forbid_unknown_fields=True)
 
 
 class Prepare(Request):
-    """Layers for frames whose longer side is `longest` pixels; what they give lies in the cache beside the recipe."""
+    """Layers for frames whose longer side is `longest` pixels. What they give lies in the cache.
+
+    `recipe`: its file; `folder`: where its relative paths start and its cache lies, where not beside the file.
+    """
 
     recipe: Annotated[str, Meta(min_length=1)]
+    folder: Annotated[str, Meta(min_length=1)] | None = None
     longest: Annotated[int, Meta(ge=16, le=16384)] = 960
 
 
@@ -112,14 +117,15 @@ class Server:
             raise Stopped
 
     def _work(self, request: Prepare) -> None:
-        from ..recipe import load
+        from ..recipe import parse
         from ..render.cache import FOLDER, Cache
         from ..render.preview import prepare
         from .show import sentence_of
 
         self._at_work, self._stopped = request, False
         try:
-            document = load(request.recipe)
+            path = Path(request.recipe)
+            document = parse(path.read_bytes(), Path(request.folder or path.parent).resolve())
             for event in prepare(document, request.longest, Cache(document.folder / FOLDER), self._beat):
                 self._beat()
                 self._say(request.id, event)

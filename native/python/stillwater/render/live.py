@@ -88,6 +88,11 @@ class Live:
         return self._renderer.size if self._renderer else (0, 0)
 
     @property
+    def layers(self) -> list[str]:
+        """The names of the layers that there are frames of, front first."""
+        return [layer.name for layer in self._timeline.recipe.layers] if self._timeline else []
+
+    @property
     def scale(self) -> float:
         """Pixels of a frame for a pixel of the picture; 1 before there are frames."""
         return self._preview.facts["scale"] if self._preview else 1.0
@@ -160,10 +165,9 @@ class Live:
         return numbers(self._timeline, frame)
 
     def _index(self, layer: str) -> int:
-        names = [each.name for each in self._timeline.recipe.layers] if self._timeline else []
-        if layer not in names:
-            raise engine.BadInput(f'layer: "{layer}" is not one of {", ".join(names) or "none"}')
-        return names.index(layer)
+        if layer not in self.layers:
+            raise engine.BadInput(f'layer: "{layer}" is not one of {", ".join(self.layers) or "none"}')
+        return self.layers.index(layer)
 
     def _build(self, document: Document) -> None:
         timeline = Timeline(document.recipe)
