@@ -79,8 +79,10 @@ def _driven(scene, prefix: str) -> set[str]:
 
 
 def _drivers(scene, prefix: str) -> dict:
-    seen = _seen[scene.session_uid, prefix]
-    for path in _driven(scene, prefix):
+    driven, seen = _driven(scene, prefix), _seen[scene.session_uid, prefix]
+    for path in seen.keys() - driven:
+        del seen[path]
+    for path in driven:
         value = scene.path_resolve(path)
         numbers = tuple(value) if hasattr(value, "__len__") else (value,)
         seen.setdefault(path, {})[scene.frame_current] = numbers
