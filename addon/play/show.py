@@ -68,15 +68,17 @@ def tidy() -> None:
 
 def _show(shown, picture, stage: Stage, refresh: bool) -> None:
     settings = shown.stillwater_live
+    if refresh or recipes.is_driven(shown, picture) or not stage.read:
+        recipe, folder = recipes.now(shown, picture)
+        stage.look(recipe)
+        stage.folder = folder
     wanted = settings.on and settings.view != "original" and not engine.problem()
     if not wanted or picture.plane is None or picture.image is None:
         _clear(picture, stage)
         return
-    if refresh or recipes.is_driven(shown, picture):
-        recipe, folder = recipes.now(shown, picture)
-        stage.rests = settings.view == "picture" and not moves(recipe)
-        if not stage.rests:
-            stage.take(recipe, folder, longest())
+    stage.rests = settings.view == "picture" and not moves(stage.read)
+    if not stage.rests:
+        stage.take(stage.read, stage.folder, longest())
     layer = _layer(picture, settings.view)
     if stage.rests or stage.problem or stage.live is None or layer not in (None, *stage.live.layers):
         _clear(picture, stage)

@@ -23,9 +23,12 @@ class Stage:
         self.rests = False  # nothing of the picture moves
         self.shown: tuple = ()  # what the plane shows
         self.taken = 0  # how many recipes were taken
-        self.recipe: dict = {}
+        self.read: dict = {}  # the recipe as the scene last had it, whether it is shown or not
+        self.reads = 0  # how often it was another one
+        self.recipe: dict = {}  # the one that was taken
         self._live = None
-        self._folder, self._longest = Path(), 0
+        self.folder = self._folder = Path()
+        self._longest = 0
         self._request = 0
         self._asked = ""
         self._gave_up = self._why = ""
@@ -34,6 +37,11 @@ class Stage:
     def live(self):
         """The engine's side, a stillwater.Live with frames to give; None where it has none."""
         return self._live if self._live is not None and self._live.ready else None
+
+    def look(self, recipe: dict) -> None:
+        """Notes the recipe as the scene has it now."""
+        if recipe != self.read:
+            self.read, self.reads = recipe, self.reads + 1
 
     def take(self, recipe: dict, folder: Path, longest: int) -> None:
         """Takes the recipe as it is now. Costs nothing where it is the same."""

@@ -14,7 +14,7 @@ class Recorder:
         self.texts, self.properties, self.operators = [], [], []
 
     def __getattr__(self, name):
-        if name in ("row", "column", "box", "split"):
+        if name in ("row", "column", "box", "split", "grid_flow"):
             return lambda **_: self
         if name in ("separator",):
             return lambda **_: None

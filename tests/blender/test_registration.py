@@ -15,7 +15,9 @@ def traces():
     lists = [_list(getattr(bpy.app.handlers, name)) for name in dir(bpy.app.handlers)]
     handlers = [handler for listed in lists for handler in listed if PACKAGE in handler.__module__]
     menus = [draw for draw in bpy.types.NODE_MT_compositor_node_add_all.draw._draw_funcs if PACKAGE in draw.__module__]
-    properties = [cls for cls in (bpy.types.Scene, bpy.types.CompositorNodeTree) if hasattr(cls, "stillwater")]
+    menus += [draw for draw in bpy.types.VIEW3D_PT_overlay.draw._draw_funcs if PACKAGE in draw.__module__]
+    kinds = (bpy.types.Scene, bpy.types.CompositorNodeTree)
+    properties = [(kind, name) for kind in kinds for name in dir(kind) if name.startswith("stillwater")]
     return classes, handlers, menus, properties
 
 
@@ -34,7 +36,7 @@ def enabled():
 def test_it_is_registered_after_its_installation(extension):
     classes, handlers, menus, properties = traces()
     assert {"STILLWATER_OT_bake", "STILLWATER_PG_layer", "STILLWATER_UL_layers", "STILLWATER_PT_view_3d"} <= classes
-    assert len(handlers) == 15 and len(menus) == 1 and len(properties) == 2
+    assert len(handlers) == 15 and len(menus) == 2 and len(properties) == 4
     assert extension.engine.problem() == "" and extension.engine.version().count(".") == 2
 
 
