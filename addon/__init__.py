@@ -10,14 +10,16 @@
     strokes      what is said by drawing on the picture
     layers       the list of layers, their motions, wind and view
     bake         the worker that makes the frames
+    play         the picture in motion in the viewport, with no bake
+    overlay      what can't be seen in the picture itself, drawn over it
     pictures     from a file on disk to a picture that can be drawn on, and away again
 
 Each room registers its own classes: properties, operators and the panels that show them.
 """
 
-from . import bake, compositor, engine, layers, pictures, preferences, properties, strokes, ui
+from . import bake, compositor, engine, layers, overlay, pictures, play, preferences, properties, strokes, ui
 
-ROOMS = [preferences, properties, ui, compositor, strokes, layers, bake, pictures]
+ROOMS = [preferences, properties, ui, compositor, strokes, layers, bake, play, overlay, pictures]
 
 
 def register():

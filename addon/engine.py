@@ -62,6 +62,18 @@ def worker_command(python: str = "") -> list[str]:
     return [python or sys.executable, "-I", "-c", _START.format(site=_site())]
 
 
+def serve_command(python: str = "") -> list[str]:
+    """What starts `python -m stillwater serve`. Throws ValueError without an engine."""
+    return [*worker_command(python), "serve"]
+
+
+def live():
+    """A new stillwater.Live. Throws ValueError without an engine."""
+    if _engine is None:
+        raise ValueError(_problem)
+    return _engine.Live()
+
+
 def python_problem(python: str) -> str:
     """Why this Python can't run the worker, as a sentence, found by trying; empty where it can."""
     if _engine is None:

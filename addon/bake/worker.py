@@ -4,6 +4,7 @@ The worker writes to files, not to pipes: nobody has to read for it to go on, an
 an open standard input and `--parent`: where Blender ends, however it ends, the worker ends too.
 """
 
+import contextlib
 import json
 import shutil
 import signal
@@ -16,7 +17,7 @@ PATIENCE = 2.0  # s: how long a worker that was asked to end may take
 
 
 class Worker:
-    """One `python -m stillwater render`."""
+    """One `python -m stillwater`: a bake, or the server of live work."""
 
     def __init__(self, command: list[str], scratch: str | None = None):
         """Starts `command`; its lines go to files below `scratch`. Throws OSError where it can't be started."""
@@ -43,6 +44,11 @@ class Worker:
             lines.append(self._rest)
         return [event for line in lines if (event := _event(line))], code
 
+    def tell(self, request: dict) -> None:
+        """Writes a line of JSON to its standard input. Throws OSError where it has ended."""
+        self._process.stdin.write(json.dumps(request).encode() + b"\n")
+        self._process.stdin.flush()
+
     def cancel(self) -> None:
         """Asks the worker to end; it is killed where it does not. Frames that are done stay."""
         if self._asked is None and self._process.poll() is None:
@@ -59,7 +65,8 @@ class Worker:
         if self._process.poll() is None:
             self._process.kill()
         self._process.wait()
-        self._process.stdin.close()
+        with contextlib.suppress(OSError):  # a request that it never read
+            self._process.stdin.close()
         self._lines.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 

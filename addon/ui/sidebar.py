@@ -42,7 +42,7 @@ def in_both_editors(name: str, part: type) -> list[type]:
 
 
 def in_viewport(name: str, part: type) -> list[type]:
-    """Its panel where only the 3D viewport has one."""
+    """The panel of the 3D viewport alone, about what only it shows."""
     return [_panel("VIEW_3D", name, part)]
 
 

@@ -17,6 +17,18 @@ void bind_core(py::module_& module) {
   module.def("has_avx2", &has_avx2);
   module.def("install_signal_handler", &install_signal_handler);
   module.def("end_with_standard_input", &end_with_standard_input);
+  module.def("listen_to_standard_input", &listen_to_standard_input);
+  module.def(
+      "next_line",
+      [](double seconds) -> std::optional<py::bytes> {
+        std::optional<std::string> line;
+        {
+          const py::gil_scoped_release released;
+          line = next_line(seconds);
+        }
+        return line ? std::optional<py::bytes>(*line) : std::nullopt;
+      },
+      py::arg("seconds"));
   module.def("process_runs", &process_runs, py::arg("id"));
   py::class_<TemporaryFile>(module, "TemporaryFile")
       .def(py::init<const std::string&>(), py::arg("path"))

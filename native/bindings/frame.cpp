@@ -1,5 +1,9 @@
 #include <pybind11/stl.h>
 
+#include <array>
+#include <optional>
+#include <variant>
+
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
 #include "frame/frame_renderer.h"
@@ -9,10 +13,15 @@ namespace {
 
 using Size = std::pair<int, int>;
 
-LayerSetup layer_setup(const LayerImage& image, const MotionNumbers& motion, int water, int follows, bool mirror,
-                       bool visible, std::pair<bool, bool> endless) {
+using Axes = std::pair<bool, bool>;
+using Plates = std::shared_ptr<LayerPlates>;  // pybind11 keeps no pointer to const
+using ExactArray = py::array_t<float, py::array::c_style>;
+
+LayerSetup layer_setup(const std::variant<LayerImage, Plates>& image, const MotionNumbers& motion, int water,
+                       int follows, bool mirror, bool visible, Axes endless) {
   LayerSetup layer;
-  layer.image = image;
+  if (const auto* plates = std::get_if<Plates>(&image)) layer.plates = *plates;
+  else layer.image = std::get<LayerImage>(image);
   layer.motion = motion;
   layer.water = water;
   layer.follows = follows;
@@ -24,12 +33,12 @@ LayerSetup layer_setup(const LayerImage& image, const MotionNumbers& motion, int
 
 std::unique_ptr<FrameRenderer> frame_renderer(Size size, double scale, const View& view, const Wind& wind,
                                               std::vector<LayerSetup> layers,
-                                              const std::optional<std::vector<LayerImage>>& alpha) {
+                                              const std::optional<std::vector<LayerImage>>& alpha, bool has_alpha) {
   if (alpha) {
     if (alpha->size() != layers.size()) throw BadInput("alpha: not one image for each layer");
     for (size_t i = 0; i < layers.size(); ++i) layers[i].alpha = (*alpha)[i];
   }
-  const PictureSetup picture{{size.first, size.second}, scale, view, wind, alpha.has_value()};
+  const PictureSetup picture{{size.first, size.second}, scale, view, wind, has_alpha || alpha};
   const py::gil_scoped_release release;
   return std::make_unique<FrameRenderer>(picture, layers);
 }
@@ -41,6 +50,34 @@ Frame render(const FrameRenderer& renderer, const Moment& now, const Moment& aft
   return renderer.render(numbers, next, {.flow = flow, .matte = true, .layers = layers});
 }
 
+Plates plates_of(const LayerImage& colour, const std::optional<LayerImage>& alpha, Size size, double scale,
+                 std::optional<Axes> drifting) {
+  const py::gil_scoped_release release;
+  std::optional<Endless> endless;
+  if (drifting) endless = Endless{drifting->first, drifting->second};
+  return std::const_pointer_cast<LayerPlates>(
+      make_plates(colour, alpha.value_or(LayerImage()), {size.first, size.second}, scale, endless));
+}
+
+void render_for_screen(const FrameRenderer& renderer, ExactArray& out, const Moment& now,
+                       std::vector<LayerState> states, int layer, bool coverage) {
+  if (as_image<cv::Vec4f>(out, "out").size() != renderer.size()) throw BadInput("out: not of the renderer's size");
+  const FrameNumbers numbers{now, std::move(states)};
+  float* rgba = out.mutable_data();
+  const py::gil_scoped_release release;
+  renderer.render_for_screen(numbers, {layer, coverage}, rgba);
+}
+
+std::vector<std::pair<float, float>> moved(const FrameRenderer& renderer, int layer, const Moment& now,
+                                           std::vector<LayerState> states, std::vector<std::pair<float, float>> points) {
+  const FrameNumbers numbers{now, std::move(states)};
+  std::vector<float> x, y;
+  for (const auto& point : points) x.push_back(point.first), y.push_back(point.second);
+  renderer.move(layer, numbers, x.data(), y.data(), static_cast<int>(points.size()));
+  for (size_t i = 0; i < points.size(); ++i) points[i] = {x[i], y[i]};
+  return points;
+}
+
 std::vector<std::optional<py::array_t<float>>> layers_of(const Frame& frame) {
   std::vector<std::optional<py::array_t<float>>> arrays;
   for (const Rgba& layer : frame.layers) arrays.push_back(layer.empty() ? std::nullopt : std::optional(as_array(layer)));
@@ -50,6 +87,16 @@ std::vector<std::optional<py::array_t<float>>> layers_of(const Frame& frame) {
 }  // namespace
 
 void bind_frame(py::module_& module) {
+  module.def(
+      "scaled_layer",
+      [](const LayerImage& layer, Size size, double scale) {
+        return scaled_layer(layer, {size.first, size.second}, scale);
+      },
+      py::arg("layer"), py::arg("size"), py::arg("scale"), py::keep_alive<0, 1>(),
+      py::call_guard<py::gil_scoped_release>());
+  py::class_<LayerPlates, Plates>(module, "LayerPlates", "A layer ready for any moment.");
+  module.def("make_plates", &plates_of, py::arg("colour"), py::arg("alpha"), py::arg("size"), py::arg("scale"),
+             py::arg("drifting"));
   py::class_<LayerSetup>(module, "Layer")
       .def(py::init(&layer_setup), py::arg("image"), py::arg("motion") = MotionNumbers(), py::arg("water") = -1,
            py::arg("follows") = -1, py::arg("mirror") = false, py::arg("visible") = true,
@@ -63,10 +110,13 @@ void bind_frame(py::module_& module) {
       .def_property_readonly("layers", &layers_of);
   py::class_<FrameRenderer>(module, "FrameRenderer")
       .def(py::init(&frame_renderer), py::arg("size"), py::arg("scale"), py::arg("view"), py::arg("wind"),
-           py::arg("layers"), py::arg("alpha") = std::nullopt)
+           py::arg("layers"), py::arg("alpha") = std::nullopt, py::arg("has_alpha") = false)
       .def_property_readonly("size", [](const FrameRenderer& r) { return std::pair(r.size().width, r.size().height); })
       .def("render", &render, py::arg("now"), py::arg("after"), py::arg("states_now"), py::arg("states_after"),
-           py::arg("flow") = true, py::arg("layers") = false);
+           py::arg("flow") = true, py::arg("layers") = false)
+      .def("render_for_screen", &render_for_screen, py::arg("out").noconvert(), py::arg("now"), py::arg("states"),
+           py::arg("layer") = -1, py::arg("coverage") = false)
+      .def("moved", &moved, py::arg("layer"), py::arg("now"), py::arg("states"), py::arg("points"));
 }
 
 }  // namespace stillwater

@@ -4,13 +4,17 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 
@@ -39,10 +43,33 @@ std::mutex slot_mutex;
 
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-extern "C" void leave_at_once(int signal_number) {
+[[noreturn]] void leave(int code) {
   for (int i = 0; i < slots; ++i)
     if (taken[i]) STILLWATER_UNLINK(paths[i]);
-  std::_Exit(128 + signal_number);
+  std::_Exit(code);
+}
+
+extern "C" void leave_at_once(int signal_number) { leave(128 + signal_number); }
+
+/// Reads standard input to its end; `take(bytes, count)`.
+template <class Take>
+void read_all(const Take& take) {
+  char bytes[4096];
+  for (long count = 1; count > 0 || (count < 0 && errno == EINTR);) {
+    count = STILLWATER_READ(0, bytes, sizeof bytes);
+    if (count > 0) take(bytes, count);
+  }
+}
+
+// Lines that were read and not asked for. Never destroyed: the thread that fills them runs until the process ends.
+struct Heard {
+  std::mutex mutex;
+  std::condition_variable came;
+  std::deque<std::string> lines;
+};
+Heard& heard() {
+  static Heard* const lines = new Heard;
+  return *lines;
 }
 
 #if defined(_WIN32)
@@ -106,11 +133,37 @@ void install_signal_handler() {
 
 void end_with_standard_input() {
   std::thread([] {
-    char thrown_away[256];
-    long count = 1;
-    while (count > 0 || (count < 0 && errno == EINTR)) count = STILLWATER_READ(0, thrown_away, sizeof thrown_away);
+    read_all([](const char*, long) {});
     leave_at_once(SIGTERM);
   }).detach();
+}
+
+void listen_to_standard_input() {
+  std::thread([&all = heard()] {
+    std::string line;
+    read_all([&](const char* bytes, long count) {
+      for (long i = 0; i < count; ++i) {
+        if (bytes[i] != '\n') {
+          line += bytes[i];
+          continue;
+        }
+        const std::lock_guard lock(all.mutex);
+        all.lines.push_back(std::exchange(line, {}));
+        all.came.notify_one();
+      }
+    });
+    leave(0);
+  }).detach();
+}
+
+std::optional<std::string> next_line(double seconds) {
+  Heard& all = heard();
+  std::unique_lock lock(all.mutex);
+  const auto any = [&] { return !all.lines.empty(); };
+  if (!all.came.wait_for(lock, std::chrono::duration<double>(seconds), any)) return std::nullopt;
+  std::string line = std::move(all.lines.front());
+  all.lines.pop_front();
+  return line;
 }
 
 bool process_runs(long id) {

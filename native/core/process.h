@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@ void install_signal_handler();
 /// From now on the process ends as SIGTERM ends it, temporary files removed, when its standard input ends: whoever
 /// started it is gone. What is read is thrown away. Watches from a thread of its own, which never touches Python.
 void end_with_standard_input();
+
+/// From now on lines of standard input are kept for next_line(), by a thread of its own, which never touches Python. When
+/// the input ends, so does the process, at once, temporary files removed, with exit code 0: whoever asked is gone.
+void listen_to_standard_input();
+
+/// The next line, without its end; nothing where none came within so many seconds. For one thread.
+std::optional<std::string> next_line(double seconds);
 
 /// True where a process of this id runs on this machine, whoever owns it.
 bool process_runs(long id);

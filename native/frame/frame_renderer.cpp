@@ -6,6 +6,8 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/parallel.h"
+#include "picture/colour.h"
 
 namespace stillwater {
 namespace {
@@ -17,6 +19,8 @@ std::vector<MotionNumbers> motion_numbers(const FrameNumbers& frame) {
   for (const LayerState& state : frame.layers) numbers.push_back(state.motion);
   return numbers;
 }
+
+cv::Rect box_of(const LayerSetup& layer) { return layer.plates ? layer.plates->box : layer.image.box; }
 
 void take_alpha(Rgba& colour, const Rgba& alpha) {
   auto from = alpha.begin();
@@ -31,22 +35,17 @@ FrameRenderer::FrameRenderer(const PictureSetup& picture, const std::vector<Laye
   check::size("size of the output", size_.width, size_.height);
   std::vector<MotionSetup> motions;
   for (const LayerSetup& layer : layers)
-    motions.push_back({layer.motion, layer.water, layer.follows, layer.mirror, layer.image.box,
+    motions.push_back({layer.motion, layer.water, layer.follows, layer.mirror, box_of(layer),
                        plate_period(picture.size, picture.scale)});
   motions_ = std::make_unique<Motions>(std::move(motions), picture.view, picture.wind, picture.size);
   for (int i = 0; i < static_cast<int>(layers.size()); ++i) {
     const LayerSetup& setup = layers[i];
     Layer& layer = layers_.emplace_back();
-    layer.visible = setup.visible && !setup.image.box.empty();
     layer.moves = motions_->moves(i);
-    if (!layer.visible) continue;
-    const bool drifting = drifts(layers, i);
-    const Endless endless = drifting ? setup.endless : Endless{};
-    layer.plate = make_plate(setup.image, picture.size, picture.scale, endless);
-    if (picture.has_alpha) layer.alpha_plate = make_plate(setup.alpha, picture.size, picture.scale, endless);
-    if (!drifting) continue;
-    layer.fade = std::make_unique<CrossFade>(layer.plate);
-    if (picture.has_alpha) layer.alpha_fade = std::make_unique<CrossFade>(layer.alpha_plate);
+    if (!setup.visible || box_of(setup).empty()) continue;
+    layer.plates = setup.plates ? setup.plates
+                                : make_plates(setup.image, picture.has_alpha ? setup.alpha : LayerImage(), picture.size,
+                                              picture.scale, drifting(layers, i));
   }
 }
 
@@ -54,25 +53,39 @@ void FrameRenderer::check(const std::vector<LayerSetup>& layers) const {
   check::size("picture", picture_.size.width, picture_.size.height);
   check::in_range("scale", picture_.scale, 0.001, 16);
   const cv::Rect whole(cv::Point(), picture_.size);
-  for (size_t i = 0; i < layers.size(); ++i)
+  for (int i = 0; i < static_cast<int>(layers.size()); ++i) {
+    const std::string place = "layers[" + std::to_string(i) + "]";
     for (const LayerImage* image : {&layers[i].image, &layers[i].alpha})
       if ((image->box & whole) != image->box || image->pixels.size() != image->box.size())
-        throw BadInput("layers[" + std::to_string(i) + "]: its box does not fit its pixels and the picture");
+        throw BadInput(place + ": its box does not fit its pixels and the picture");
+    if (const LayerPlates* plates = layers[i].plates.get())
+      if (plates->picture != picture_.size || plates->output_scale != picture_.scale ||
+          plates->alpha.source.empty() == (picture_.has_alpha && !plates->colour.source.empty()) ||
+          plates->drifting != drifting(layers, i))
+        throw BadInput(place + ".plates: made for another picture, scale or way of drifting");
+  }
 }
 
-bool FrameRenderer::drifts(const std::vector<LayerSetup>& layers, int layer) const {
-  for (; layer >= 0; layer = layers[layer].follows)
-    if (std::holds_alternative<Drift>(layers[layer].motion)) return true;
-  return false;
+void FrameRenderer::check_layer(int layer) const {
+  if (layer < 0 || layer >= static_cast<int>(layers_.size()))
+    throw BadInput("layer: " + std::to_string(layer) + " is not between 0 and " + std::to_string(layers_.size() - 1));
+}
+
+// Along which axes a layer that drifts, or follows one that does, goes on for ever.
+std::optional<Endless> FrameRenderer::drifting(const std::vector<LayerSetup>& layers, int layer) const {
+  for (int led = layer; led >= 0 && led < static_cast<int>(layers.size()); led = layers[led].follows)
+    if (std::holds_alternative<Drift>(layers[led].motion)) return layers[layer].endless;
+  return std::nullopt;
 }
 
 FrameRenderer::LayerMotions FrameRenderer::motions_of(const std::vector<Placement>& now,
                                                       const std::vector<Travel>& travel, bool of_alpha) const {
   LayerMotions motions;
   for (size_t i = 0; i < layers_.size(); ++i) {
-    const Layer& layer = layers_[i];
-    const Plate& plate = of_alpha ? layer.alpha_plate : layer.plate;
-    const CrossFade* fade = (of_alpha ? layer.alpha_fade : layer.fade).get();
+    static const LayerPlates unseen;
+    const LayerPlates& plates = layers_[i].plates ? *layers_[i].plates : unseen;
+    const Plate& plate = of_alpha ? plates.alpha : plates.colour;
+    const CrossFade* fade = (of_alpha ? plates.alpha_fade : plates.colour_fade).get();
     motions.push_back(fade && now[i].second_share > 0 ? fade->at(plate, now[i], travel[i])
                                                       : displaced_layer(plate, now[i], travel[i]));
   }
@@ -82,7 +95,7 @@ FrameRenderer::LayerMotions FrameRenderer::motions_of(const std::vector<Placemen
 std::vector<ComposedLayer> FrameRenderer::composed(const LayerMotions& motions, const FrameNumbers& now) const {
   std::vector<ComposedLayer> composed;
   for (size_t i = 0; i < layers_.size(); ++i) {
-    const float opacity = layers_[i].visible ? static_cast<float>(now.layers[i].opacity) : 0.0f;
+    const float opacity = layers_[i].plates ? static_cast<float>(now.layers[i].opacity) : 0.0f;
     composed.push_back({motions[i].get(), opacity, layers_[i].moves});
   }
   return composed;
@@ -109,6 +122,31 @@ void FrameRenderer::add_alpha(Frame& frame, const LayerMotions& motions, const F
   take_alpha(frame.combined, compose(layers, size_, {.flow = false, .matte = false}).combined);
   for (size_t i = 0; i < frame.layers.size(); ++i)
     if (!frame.layers[i].empty()) take_alpha(frame.layers[i], compose_alone(layers[i], size_));
+}
+
+void FrameRenderer::render_for_screen(const FrameNumbers& now, ScreenWish wish, float* rgba) const {
+  FrameNumbers seen = now;
+  if (wish.layer >= 0) {
+    check_layer(wish.layer);
+    for (int i = 0; i < static_cast<int>(seen.layers.size()); ++i)
+      if (i != wish.layer) seen.layers[i].opacity = 0;
+  }
+  const Rgba picture = render(seen, seen, {.flow = false, .matte = false}).combined;
+  parallel_rows(picture.rows, 16, [&](int first, int last) {
+    std::vector<cv::Vec4f> grey(wish.coverage ? picture.cols : 0);
+    for (int y = first; y < last; ++y) {
+      const cv::Vec4f* row = picture[y];
+      for (size_t x = 0; x < grey.size(); ++x) grey[x] = {row[x][3], row[x][3], row[x][3], 1};
+      const float* shown = wish.coverage ? grey.front().val : row->val;
+      display_to_scene(shown, rgba + static_cast<size_t>(picture.rows - 1 - y) * picture.cols * 4, picture.cols);
+    }
+  });
+}
+
+void FrameRenderer::move(int layer, const FrameNumbers& now, float* x, float* y, int count) const {
+  check_layer(layer);
+  const std::shared_ptr<const Displacement> moved = motions_->at(now.moment, motion_numbers(now))[layer].first;
+  if (moved) moved->map(x, y, count);
 }
 
 }  // namespace stillwater

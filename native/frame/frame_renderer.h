@@ -16,6 +16,7 @@ namespace stillwater {
 struct LayerSetup {
   LayerImage image;       ///< of the picture, counted as opaque
   LayerImage alpha;       ///< the same layer cut out of the picture's alpha as a grey picture; only where it has any
+  std::shared_ptr<const LayerPlates> plates;  ///< instead of both: made before, by make_plates()
   MotionNumbers motion;   ///< animated fields are replaced at each moment
   int water = -1;         ///< of a bob: index of the ripple layer that carries it
   int follows = -1;       ///< index of the layer that this one goes with
@@ -57,27 +58,42 @@ struct Frame {
   std::vector<Rgba> layers;  ///< each alone; empty images for hidden ones
 };
 
+/// What a screen shows of a moment.
+struct ScreenWish {
+  int layer = -1;        ///< index of the layer that is shown alone, over nothing; -1: all of them
+  bool coverage = false;  ///< how much of each pixel is covered, as grey
+};
+
 class FrameRenderer {
  public:
-  /// Throws BadInput for sizes out of range, layers outside the picture, and what Motions refuses.
+  /// Throws BadInput for sizes out of range, layers outside the picture, plates made for something else, and what
+  /// Motions refuses.
   FrameRenderer(const PictureSetup& picture, const std::vector<LayerSetup>& layers);
 
   /// The frame of the moment `now`; `after` is one frame later (for the flow). Keeps nothing that changes a later
   /// answer: any frame can be asked for alone, by several threads.
   Frame render(const FrameNumbers& now, const FrameNumbers& after, FrameWish wish) const;
 
+  /// The picture of a moment as Blender keeps one: scene-linear, premultiplied, bottom row first. `rgba`: four
+  /// numbers for each pixel of size(). Throws BadInput for a layer that is not there.
+  void render_for_screen(const FrameNumbers& now, ScreenWish wish, float* rgba) const;
+
+  /// Takes points of the still picture (picture pixels) to where they are at a moment as part of one layer; where two
+  /// copies are cross-faded, of the first. Throws BadInput for a layer that is not there.
+  void move(int layer, const FrameNumbers& now, float* x, float* y, int count) const;
+
   /// Width and height of the output.
   cv::Size size() const { return size_; }
 
  private:
   struct Layer {
-    Plate plate, alpha_plate;
-    std::unique_ptr<CrossFade> fade, alpha_fade;  ///< of drifts and what follows them
-    bool visible = true, moves = false;
+    std::shared_ptr<const LayerPlates> plates;  // null: the layer is not seen
+    bool moves = false;
   };
 
   void check(const std::vector<LayerSetup>& layers) const;
-  bool drifts(const std::vector<LayerSetup>& layers, int layer) const;
+  void check_layer(int layer) const;
+  std::optional<Endless> drifting(const std::vector<LayerSetup>& layers, int layer) const;
   using LayerMotions = std::vector<std::unique_ptr<LayerMotion>>;
   LayerMotions motions_of(const std::vector<Placement>& now, const std::vector<Travel>& travel, bool of_alpha) const;
   std::vector<ComposedLayer> composed(const LayerMotions& motions, const FrameNumbers& now) const;

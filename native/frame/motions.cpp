@@ -11,6 +11,9 @@
 namespace stillwater {
 namespace {
 
+// How far a layer is usually moved by what it follows besides its own water, of the picture's width.
+constexpr double moved_share = 1.0 / 24;
+
 std::string place_of(int layer) { return "layers[" + std::to_string(layer) + "]"; }
 
 }  // namespace
@@ -51,13 +54,16 @@ bool Motions::moves(int layer) const {
   return !std::holds_alternative<std::monostate>(setup.numbers) || (setup.follows >= 0 && moves(setup.follows));
 }
 
-// Where the water's displacement is asked for: under its own layer, those that follow it and those that float on it.
+// Where the water's displacement is mostly asked for: under its own layer, those that follow it and those that float on it.
 cv::Rect Motions::water_region(int layer) const {
   cv::Rect region = layers_[layer].box;
   for (const MotionSetup& other : layers_) {
     if (other.follows == layer) region |= other.box;
     if (other.water == layer && std::holds_alternative<Bob>(other.numbers)) region |= other.box;
   }
+  const int around = cvCeil(moved_share * picture_.width);
+  region += cv::Size(2 * around, 2 * around);
+  region -= cv::Point(around, around);
   return region & cv::Rect(cv::Point(), picture_);
 }
 

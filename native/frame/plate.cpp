@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <string>
 
+#include "core/error.h"
 #include "layers/cyclic.h"
 
 namespace stillwater {
@@ -11,41 +13,36 @@ namespace {
 
 int scaled_side(int side, double scale) { return std::max(1, static_cast<int>(std::lround(side * scale))); }
 
-// The layer on the canvas that its plate covers: its box, or the whole picture along endless axes.
-LayerImage on_canvas(const LayerImage& layer, cv::Size picture, double scale, Endless endless) {
+// The layer on a canvas that covers the whole picture (of this size) along some axes.
+LayerImage on_canvas(const LayerImage& layer, cv::Size whole, Endless along) {
   cv::Rect canvas = layer.box;
-  if (endless.x || scale < 1) canvas.x = 0, canvas.width = picture.width;
-  if (endless.y || scale < 1) canvas.y = 0, canvas.height = picture.height;
+  if (along.x) canvas.x = 0, canvas.width = whole.width;
+  if (along.y) canvas.y = 0, canvas.height = whole.height;
   if (canvas == layer.box) return layer;
-  LayerImage whole{Rgba::zeros(canvas.size()), canvas};
-  layer.pixels.copyTo(whole.pixels(layer.box - canvas.tl()));
-  return whole;
+  LayerImage wide{Rgba::zeros(canvas.size()), canvas};
+  layer.pixels.copyTo(wide.pixels(layer.box - canvas.tl()));
+  return wide;
 }
 
-// The whole canvas made smaller, then cut to what is left of the layer.
-LayerImage reduced(const LayerImage& whole, const cv::Rect& layer_box, double scale, Endless endless) {
+// The whole picture made smaller, then cut to what is left of the layer.
+LayerImage reduced(const LayerImage& whole, const cv::Rect& layer_box, double scale) {
   Rgba small;
   cv::resize(whole.pixels, small, cv::Size(), scale, scale, cv::INTER_AREA);
-  const cv::Rect all(cv::Point(), small.size());
   const auto low = [&](int at) { return static_cast<int>(std::floor(at * scale)) - 3; };
   const auto high = [&](int at) { return static_cast<int>(std::ceil(at * scale)) + 3; };
   cv::Rect box(cv::Point(low(layer_box.x), low(layer_box.y)), cv::Point(high(layer_box.br().x), high(layer_box.br().y)));
-  box &= all;
-  if (endless.x) box.x = 0, box.width = all.width;
-  if (endless.y) box.y = 0, box.height = all.height;
+  box &= cv::Rect(cv::Point(), small.size());
   return {small(box).clone(), box};
 }
 
-LayerImage at_plate_scale(const LayerImage& layer, cv::Size picture, double scale, Endless endless) {
-  const LayerImage whole = on_canvas(layer, picture, scale, endless);
-  if (scale >= 1) return whole;
-  const bool vanishes = picture.width * scale < 1 || picture.height * scale < 1;
-  if (!vanishes) return reduced(whole, layer.box, scale, endless);
-  LayerImage pixel;
-  const cv::Size size(scaled_side(picture.width, scale), scaled_side(picture.height, scale));
-  cv::resize(whole.pixels, pixel.pixels, size, 0, 0, cv::INTER_AREA);
-  pixel.box = cv::Rect(cv::Point(), size);
-  return pixel;
+bool vanishes(cv::Size picture, double scale) { return picture.width * scale < 1 || picture.height * scale < 1; }
+
+// Of the whole picture at the scale of its plates, as scaled_layer() makes it.
+cv::Size canvas_size(cv::Size picture, double output_scale) {
+  if (output_scale >= 1) return picture;
+  if (vanishes(picture, output_scale))
+    return {scaled_side(picture.width, output_scale), scaled_side(picture.height, output_scale)};
+  return {cvRound(picture.width * output_scale), cvRound(picture.height * output_scale)};
 }
 
 // At the picture's border a layer goes on, mirrored; elsewhere it ends.
@@ -59,7 +56,7 @@ Plate as_plate(const LayerImage& scaled, const cv::Rect& layer_box, cv::Size pic
   const Beyond down{endless.y, box.y == 0, box.br().y >= whole.height};
   Plate plate;
   plate.source = Source(endless.x || endless.y ? make_cyclic(pixels, endless.x, endless.y) : pixels, across, down);
-  plate.origin = {static_cast<double>(scaled.box.x), static_cast<double>(scaled.box.y)};
+  plate.origin = {static_cast<double>(box.x), static_cast<double>(box.y)};
   plate.scale = scale;
   plate.output_scale = output_scale;
   plate.box = layer_box;
@@ -69,12 +66,43 @@ Plate as_plate(const LayerImage& scaled, const cv::Rect& layer_box, cv::Size pic
   return plate;
 }
 
+void check(const char* name, const LayerImage& layer, cv::Size picture) {
+  const cv::Rect whole(cv::Point(), picture);
+  if ((layer.box & whole) != layer.box || layer.pixels.size() != layer.box.size())
+    throw BadInput(std::string(name) + ": its box does not fit its pixels and the picture");
+}
+
 }  // namespace
 
-Plate make_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless) {
-  if (layer.box.empty()) return {};
-  return as_plate(at_plate_scale(layer, picture, std::min(1.0, output_scale), endless), layer.box, picture, output_scale,
-                  endless);
+LayerImage scaled_layer(const LayerImage& layer, cv::Size picture, double output_scale) {
+  if (output_scale >= 1 || layer.box.empty()) return layer;
+  const LayerImage whole = on_canvas(layer, picture, {true, true});
+  if (!vanishes(picture, output_scale)) return reduced(whole, layer.box, output_scale);
+  LayerImage pixel{Rgba(), cv::Rect(cv::Point(), canvas_size(picture, output_scale))};
+  cv::resize(whole.pixels, pixel.pixels, pixel.box.size(), 0, 0, cv::INTER_AREA);
+  return pixel;
+}
+
+std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
+                                               double output_scale, std::optional<Endless> drifting) {
+  check("colour", colour, picture);
+  check("alpha", alpha, picture);
+  auto plates = std::make_shared<LayerPlates>();
+  plates->box = colour.box;
+  plates->picture = picture;
+  plates->output_scale = output_scale;
+  plates->drifting = drifting;
+  const Endless endless = drifting.value_or(Endless());
+  const auto fill = [&](const LayerImage& layer, Plate& plate, std::unique_ptr<const CrossFade>& fade) {
+    if (layer.box.empty()) return;
+    const LayerImage scaled = scaled_layer(layer, picture, output_scale);
+    const LayerImage wide = on_canvas(scaled, canvas_size(picture, output_scale), endless);
+    plate = as_plate(wide, layer.box, picture, output_scale, endless);
+    if (drifting) fade = std::make_unique<CrossFade>(plate);
+  };
+  fill(colour, plates->colour, plates->colour_fade);
+  fill(alpha, plates->alpha, plates->alpha_fade);
+  return plates;
 }
 
 Point plate_period(cv::Size picture, double output_scale) {

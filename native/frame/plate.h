@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+
+#include "frame/cross_fade.h"
 #include "frame/displaced_layer.h"
 #include "layers/layer_image.h"
 
@@ -8,11 +12,27 @@ namespace stillwater {
 /// Along which axes a layer goes on for ever.
 struct Endless {
   bool x = false, y = false;
+
+  bool operator==(const Endless&) const = default;
 };
 
-/// A layer's pixels at the scale at which they are sampled: the output's where that is smaller than the picture's
-/// (areas are averaged), else the picture's. An endless layer is continued by make_cyclic().
-Plate make_plate(const LayerImage& layer, cv::Size picture, double output_scale, Endless endless);
+/// The layer at the scale at which it is sampled: the output's where that is below 1 (areas are averaged), else as it is.
+/// `picture` is the whole picture's size; the box comes back in pixels of that scale.
+LayerImage scaled_layer(const LayerImage& layer, cv::Size picture, double output_scale);
+
+/// A layer as frames read it: ready for any moment, whatever the numbers of its motion are.
+struct LayerPlates {
+  cv::Rect box;                     ///< where the layer lies, picture pixels
+  cv::Size picture;                 ///< the whole picture
+  double output_scale = 1;          ///< output pixels for a picture pixel
+  std::optional<Endless> drifting;  ///< of a layer that drifts, or follows one that does
+  Plate colour, alpha;              ///< alpha: of the picture's own, as a grey picture; empty where it has none
+  std::unique_ptr<const CrossFade> colour_fade, alpha_fade;  ///< of a layer that drifts; they belong to these plates
+};
+
+/// An endless layer is continued by make_cyclic(). Throws BadInput where a box does not fit its pixels or the picture.
+std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
+                                               double output_scale, std::optional<Endless> drifting);
 
 /// Length of one period of an endless layer's plate along x and y, in picture pixels.
 Point plate_period(cv::Size picture, double output_scale);

@@ -101,6 +101,11 @@ class Chained final : public Displacement {
     first_->unmap(x, y, count);
   }
 
+  void unmap_row(float x0, float y0, float step, int count, float* x, float* y) const override {
+    then_->unmap_row(x0, y0, step, count, x, y);
+    first_->unmap(x, y, count);
+  }
+
  private:
   std::shared_ptr<const Displacement> first_, then_;
 };

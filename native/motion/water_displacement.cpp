@@ -284,7 +284,8 @@ MirrorWater::MirrorWater(const WaterPlane& plane, cv::Size picture, cv::Rect reg
   water_.pixels = static_cast<float>(pixels_per_slope);
   water_.fade = mirror_fade * static_cast<float>(picture.width);
   water_.right = water_.away = no_nodes();
-  const Box box = level_box(plane, region);
+  const cv::Rect seen = spread(region) & cv::Rect(-2, -2, picture.width + 4, picture.height + 4);
+  const Box box = level_box(plane, seen);
   if (at_rest() || region.empty() || box.bottom <= plane.horizon()) return;
   for (FilteredWater* slopes : {&right_, &away_})
     slopes->keep(slopes->column(box.left - 1), slopes->column(box.right + 1) + 1,

@@ -14,7 +14,7 @@ class Recorder:
         self.texts, self.properties, self.operators, self.lists, self.menus, self.made = [], [], [], [], [], []
 
     def __getattr__(self, name):
-        if name in ("row", "column", "box", "split"):
+        if name in ("row", "column", "box", "split", "grid_flow"):
             return lambda **_: self
         if name in ("separator",):
             return lambda **_: None
@@ -29,7 +29,7 @@ class Recorder:
     def progress(self, factor=0.0, text=""):
         self.texts.append(text)
 
-    def prop(self, data, name, text="", icon="NONE", emboss=True, placeholder=""):
+    def prop(self, data, name, text="", icon="NONE", emboss=True, expand=False, placeholder=""):
         getattr(data, name)
         assert icon in ICONS
         self.properties.append(name)

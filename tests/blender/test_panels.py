@@ -35,7 +35,7 @@ def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, t
 
 def test_panels_stand_in_the_order_of_the_work(scene):
     labels = [cls.bl_label for cls in registered("view_3d")]
-    assert labels == ["Stillwater", "Picture", "Layers", "Strokes", "Wind", "View", "Bake", "Output"]
+    assert labels == ["Stillwater", "Picture", "Layers", "Strokes", "Wind", "View", "Live", "Bake", "Output"]
 
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])

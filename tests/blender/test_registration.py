@@ -20,7 +20,8 @@ def traces():
     kinds = [getattr(bpy.types, name) for name in dir(bpy.types)]
     added = [draw for kind in kinds for draw in getattr(getattr(kind, "draw", None), "_draw_funcs", [])]
     menus = [draw for draw in added if PACKAGE in draw.__module__] + bpy.utils.preset_paths("stillwater/sway")
-    properties = [cls for cls in (bpy.types.Scene, bpy.types.CompositorNodeTree) if hasattr(cls, "stillwater")]
+    owners = (bpy.types.Scene, bpy.types.CompositorNodeTree)
+    properties = [(kind, name) for kind in owners for name in dir(kind) if name.startswith("stillwater")]
     return classes, handlers, menus, properties
 
 
@@ -39,7 +40,7 @@ def enabled():
 def test_it_is_registered_after_its_installation(extension):
     classes, handlers, menus, properties = traces()
     assert {"STILLWATER_OT_bake", "STILLWATER_PG_layer", "STILLWATER_UL_layers", "STILLWATER_PT_view_3d"} <= classes
-    assert len(handlers) >= 9 and len(menus) >= 7 and len(properties) == 2
+    assert len(handlers) >= 15 and len(menus) >= 8 and len(properties) >= 4
     assert extension.engine.problem() == "" and extension.engine.version().count(".") == 2
 
 

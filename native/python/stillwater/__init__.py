@@ -31,6 +31,7 @@ _HOMES = {
     "bob": "motion",
     "ripple": "motion",
     "wave_heights": "motion",
+    "Live": "render.live",
 }
 
 __all__ = sorted(_HOMES)

@@ -16,6 +16,7 @@ from .recipe import Document as Document
 from .recipe import RecipeError as RecipeError
 from .recipe import load as load
 from .recipe import parse as parse
+from .render.live import Live as Live
 
 __version__: str
 

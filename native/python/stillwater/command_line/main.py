@@ -7,11 +7,11 @@ import sys
 
 from ..recipe import RecipeError
 from ..render.errors import Refused
-from . import check, info, render, schema
+from . import check, info, render, schema, serve
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
-COMMANDS = (check, schema, info, render)
+COMMANDS = (check, schema, info, render, serve)
 
 
 class Parser(argparse.ArgumentParser):

@@ -7,6 +7,8 @@
     claim      which worker renders which frames
     loop       frame after frame; what happens comes as events
     movie      frames -> a film
+    preview    layers at the size of a screen, prepared
+    live       frames for a screen, from what is prepared
 
 Start with loop.py.
 """

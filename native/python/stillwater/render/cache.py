@@ -88,13 +88,22 @@ class Cache:
         with lock:
             yield lock
 
-    def digest(self, path: Path) -> str:
-        """The hash of a file's bytes, remembered by its size and time. Throws OSError where it can't be read."""
+    def known(self, path: Path) -> str | None:
+        """The hash of a file's bytes where it is remembered by size and time. Throws OSError where there is no file."""
         state = path.stat()
         known = self._digests.get(str(path.resolve()))
+        return known[2] if known and known[:2] == [state.st_size, state.st_mtime_ns] else None
+
+    def learn(self, digests: dict[str, list]) -> None:
+        """Remembers what another process found: size, time in ns and hash by the file's path."""
+        self._digests |= digests
+
+    def digest(self, path: Path) -> str:
+        """The hash of a file's bytes, remembered by its size and time. Throws OSError where it can't be read."""
+        if known := self.known(path):
+            return known
+        state = path.stat()
         facts = [state.st_size, state.st_mtime_ns]
-        if known and known[:2] == facts:
-            return known[2]
         with open(path, "rb") as file:
             digest = hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
         if time.time() - state.st_mtime > FRESH:

@@ -53,3 +53,14 @@ class Error(Event):
     """The work ended here."""
 
     sentence: str
+
+
+class Ready(Event, tag="done"):
+    """Of `serve`: what was asked for is in the cache. `files`: size, time in ns and hash of each file read, by path."""
+
+    key: str
+    files: dict[str, list]
+
+
+class Dropped(Event, tag="cancelled"):
+    """Of `serve`: a request was cancelled, or a newer one for the same recipe came."""

@@ -33,15 +33,8 @@ class Sources:
 
     def __init__(self, document: Document, cache: Cache):
         self.document, self.recipe = document, document.recipe
-        problems, digests = [], {}
-        for place, name in _files(self.recipe):
-            try:
-                digests[name] = cache.digest(document.locate(name))
-            except OSError as error:
-                problems.append(f"{place}: {document.locate(name)}: {_why(error)}")
-        if problems:
-            raise RecipeError(*problems)
-        self.key = stack_key(self.recipe, digests)
+        self.digests = digests_of(document, cache.digest)
+        self.key = stack_key(self.recipe, self.digests)
         self.size = self._size()
 
     def _size(self) -> tuple[int, int]:
@@ -124,6 +117,22 @@ class Sources:
         (height, width), (full_height, full_width) = image.shape[:2], images.picture.shape[:2]
         if (height, width) != (full_height, full_width):
             raise RecipeError(f"{place}: {width} x {height} is not the size of the picture, {full_width} x {full_height}")
+
+
+def digests_of(document: Document, find: Callable) -> dict:
+    """What `find` (Cache.digest, Cache.known) answers for each file of a recipe, by the name the recipe has for it.
+
+    Throws RecipeError with every file that can't be read.
+    """
+    problems, digests = [], {}
+    for place, name in _files(document.recipe):
+        try:
+            digests[name] = find(document.locate(name))
+        except OSError as error:
+            problems.append(f"{place}: {document.locate(name)}: {_why(error)}")
+    if problems:
+        raise RecipeError(*problems)
+    return digests
 
 
 def filled_otherwise(recipe: Recipe) -> Iterator[str]:

@@ -15,41 +15,43 @@ class Renderer:
     """Frames of one recipe at one scale, in any order."""
 
     def __init__(self, timeline: Timeline, stack: Prepared, size: tuple[int, int], scale: float):
-        recipe = timeline.recipe
-        place = {layer.name: i for i, layer in enumerate(recipe.layers)}
-        start = timeline.at(1)  # animated fields are replaced at each frame
-        self._timeline, self._layers_too = timeline, recipe.output.layers
-        images = layer_images(stack, "colour")
-        layers = [
-            engine.Layer(
-                image,
-                _motion(now.motion),
-                water=place[layer.motion.water] if isinstance(layer.motion, Bob) else -1,
-                follows=place[layer.follows.layer] if layer.follows else -1,
-                mirror=bool(layer.follows and layer.follows.mirror),
-                visible=layer.visible,
-                endless=endless,
-            )
-            for image, layer, now, endless in zip(images, recipe.layers, start.layers, timeline.endless, strict=True)
-        ]
-        view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
-        self._renderer = engine.FrameRenderer(
-            size=size,
-            scale=scale,
-            view=view,
-            wind=_moment(start.moment).wind,
-            layers=layers,
-            alpha=layer_images(stack, "alpha") if stack.facts["has_alpha"] else None,
-        )
+        self._timeline, self._layers_too = timeline, timeline.recipe.output.layers
+        alpha = layer_images(stack, "alpha") if stack.facts["has_alpha"] else None
+        self._renderer = frame_renderer(timeline, layer_images(stack, "colour"), size, scale, alpha=alpha)
 
     def frame(self, frame: int):
         """One frame: .combined H x W x 4 premultiplied display-referred, .flow H x W x 2, .matte H x W, .layers."""
-        (now, states), (after, states_after) = self._numbers(frame), self._numbers(frame + 1)
+        (now, states), (after, states_after) = numbers(self._timeline, frame), numbers(self._timeline, frame + 1)
         return self._renderer.render(now, after, states, states_after, flow=True, layers=self._layers_too)
 
-    def _numbers(self, frame: int):
-        now = self._timeline.at(frame)
-        return _moment(now.moment), [engine.LayerState(layer.opacity, _motion(layer.motion)) for layer in now.layers]
+
+def frame_renderer(timeline: Timeline, images: list, size: tuple[int, int], scale: float, **alpha) -> engine.FrameRenderer:
+    """The engine's renderer. `images`: an engine.LayerImage or engine.LayerPlates for each layer.
+
+    `alpha`: the same layers of the picture's own alpha, or has_alpha=True where the plates have them.
+    """
+    recipe, start = timeline.recipe, timeline.at(1)  # animated fields are replaced at each frame
+    place = {layer.name: i for i, layer in enumerate(recipe.layers)}
+    layers = [
+        engine.Layer(
+            image,
+            _motion(now.motion),
+            water=place[layer.motion.water] if isinstance(layer.motion, Bob) else -1,
+            follows=place[layer.follows.layer] if layer.follows else -1,
+            mirror=bool(layer.follows and layer.follows.mirror),
+            visible=layer.visible,
+            endless=endless,
+        )
+        for image, layer, now, endless in zip(images, recipe.layers, start.layers, timeline.endless, strict=True)
+    ]
+    view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
+    return engine.FrameRenderer(size, scale, view, _moment(start.moment).wind, layers, **alpha)
+
+
+def numbers(timeline: Timeline, frame: int) -> tuple:
+    """What the engine's renderer is told of one frame: its moment, and a state for each layer."""
+    now = timeline.at(frame)
+    return _moment(now.moment), [engine.LayerState(layer.opacity, _motion(layer.motion)) for layer in now.layers]
 
 
 def _moment(now: MomentNow):

@@ -1,0 +1,48 @@
+"""Which overlays a scene shows. Blender's own Overlays switch turns off all of them."""
+
+import bpy
+from bpy.props import BoolProperty
+
+from . import draw as drawing
+
+
+class STILLWATER_PG_overlay(bpy.types.PropertyGroup):
+    """Of a scene; Blender has no place for it in a viewport."""
+
+    sway_lines: BoolProperty(
+        name="Sway Lines", description="From the root to the tip of what sways, as it bends at this frame",
+        default=True, options=set(),
+    )
+    wind: BoolProperty(
+        name="Wind", description="Where the wind blows to, how strongly, and its gusts at this frame",
+        default=True, options=set(),
+    )
+    water: BoolProperty(
+        name="Water Plane", description="The water's plane up to the horizon, while the active layer is water or floats",
+        default=True, options=set(),
+    )
+    waterlines: BoolProperty(
+        name="Waterlines", description="Along the hulls of what floats, where the water has them at this frame",
+        default=True, options=set(),
+    )
+    outline: BoolProperty(
+        name="Matte Outline", description="Around the active layer, at rest", default=True, options=set()
+    )
+
+
+def draw(self, context):
+    """The switches, in the viewport's Overlays popover."""
+    if not context.scene.stillwater.pictures:
+        return
+    overlay = context.scene.stillwater_overlay
+    column = self.layout.column()
+    column.active = context.space_data.overlay.show_overlays
+    column.label(text="Stillwater")
+    grid = column.grid_flow(columns=2, even_columns=True, align=True)
+    for name in STILLWATER_PG_overlay.__annotations__:
+        grid.prop(overlay, name)
+    if drawing.problem:
+        column.label(text=drawing.problem, icon="ERROR")
+
+
+CLASSES = [STILLWATER_PG_overlay]

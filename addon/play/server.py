@@ -1,0 +1,85 @@
+"""`stillwater serve`: one process for each Blender, started when something must be prepared.
+
+A timer reads what it says. It ends with Blender, as its standard input does.
+"""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import bpy
+
+from .. import engine, preferences
+from ..bake.worker import Worker, ending
+
+INTERVAL = 0.1  # s
+
+_worker: Worker | None = None
+_open: dict[int, Callable[[dict], None]] = {}  # requests that are not over, and who is told
+_last = 0
+
+
+def prepare(name: str, recipe: dict, folder: Path, longest: int, told: Callable[[dict], None]) -> int:
+    """Asks for a recipe's layers at the size of a screen; a newer request of the same `name` ends the older.
+
+    `told` gets every answer; the last is a "done", an "error" or a "cancelled". Returns the request's number. Throws
+    ValueError without an engine, OSError where the process can't be started.
+    """
+    global _worker, _last
+    if _worker is None:
+        _worker = Worker(engine.serve_command(preferences.of(bpy.context).python), bpy.app.tempdir)
+    path = Path(bpy.app.tempdir, f"stillwater-live-{name}.json")
+    path.write_text(json.dumps(recipe), encoding="utf-8")
+    _last += 1
+    _open[_last] = told
+    try:
+        _worker.tell({"id": _last, "do": "prepare", "recipe": str(path), "folder": str(folder), "longest": longest})
+    except OSError:
+        tick()  # it has ended: that is said to all
+    if not bpy.app.timers.is_registered(tick):
+        bpy.app.timers.register(tick, first_interval=INTERVAL)
+    return _last
+
+
+def cancel(number: int) -> None:
+    """Ends a request; nobody is told of it any more."""
+    if _open.pop(number, None) is not None and _worker is not None:
+        try:
+            _worker.tell({"id": number, "do": "cancel"})
+        except OSError:
+            tick()
+
+
+def tick() -> float | None:
+    """Reads what was said; called by a timer while anything is asked."""
+    global _worker
+    if _worker is None:
+        return None
+    events, code = _worker.poll()
+    for event in events:
+        told = _open.get(event.get("id"))
+        if told is None:
+            continue
+        if event["event"] in {"done", "error", "cancelled"}:
+            del _open[event["id"]]
+        told(event)
+    if code is not None:
+        sentence = ending(code, _worker.last_words())
+        _worker.close()
+        _worker = None
+        waiting = list(_open.values())
+        _open.clear()
+        for told in waiting:
+            told({"event": "error", "sentence": sentence})
+    return INTERVAL if _open else None
+
+
+def end() -> None:
+    """Ends the process, at once."""
+    global _worker
+    _open.clear()
+    if bpy.app.timers.is_registered(tick):
+        bpy.app.timers.unregister(tick)
+    if _worker is not None:
+        _worker.close()
+        _worker = None

@@ -1,0 +1,134 @@
+"""The layers of a recipe at the size of a screen: a preparation, so that whoever shows frames makes none.
+
+`prepare` makes it, as slowly as it must; `find` looks whether it is there, and reads no file but the cache's.
+"""
+
+from collections.abc import Callable, Generator, Iterator
+from pathlib import Path
+
+from msgspec.structs import replace
+
+from .. import _stillwater as engine
+from ..recipe import Document, Recipe
+from ..recipe.parts import Keys
+from ..recipe.stochastic import Bob, Drift, Sway
+from .cache import Cache, Prepared
+from .errors import Failed
+from .events import Event, Preparing, Ready, Warn
+from .keys import ENGINES, hashed, stack_key
+from .loop import frame_size
+from .prepare import Sources, cut, digests_of, filled_otherwise, layer_images
+
+PARTS = ("colour", "alpha")
+
+
+def find(document: Document, cache: Cache, longest: int) -> tuple[str, Prepared] | None:
+    """The key and the layers, where they are prepared for the files as they are now.
+
+    Throws RecipeError where a file is missing.
+    """
+    digests = digests_of(document, cache.known)
+    if not all(digests.values()):
+        return None
+    key = _key(stack_key(document.recipe, digests), longest)
+    prepared = cache.find(key)
+    return (key, prepared) if prepared else None
+
+
+def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lambda: None) -> Iterator[Event]:
+    """Prepares the layers for frames whose longer side is `longest` pixels, at most the picture's. The last event is Ready.
+
+    `beat` is called again and again while it lasts, and may end it by raising. Throws RecipeError; Failed where the
+    cache can't be written.
+    """
+    sources = Sources(document, cache)
+    key = _key(sources.key, longest)
+    yield from map(Warn, filled_otherwise(document.recipe))
+    if cache.find(key) is None:
+        with cache.lock(key, beat) as lock:
+
+            def still_there() -> None:
+                beat()
+                lock.beat()
+
+            if cache.find(key) is None:
+                stack = yield from _stack(document, cache, sources, still_there)
+                yield Preparing(0.9, "making the layers small")
+                cache.store(key, _reduced(stack, sources.size, longest, still_there))
+    cache.keep_digests()
+    if cache.trouble:
+        raise Failed(cache.trouble)
+    yield Preparing(1, "done")
+    yield Ready(key, {str(path.resolve()): _file(path, digest) for path, digest in _located(document, sources)})
+
+
+def _key(stack: str, longest: int) -> str:
+    return hashed({"preview of": stack, "longest": longest, "frame": ENGINES["frame"]})
+
+
+def _located(document: Document, sources: Sources):
+    return [(document.locate(name), digest) for name, digest in sources.digests.items()]
+
+
+def _file(path: Path, digest: str) -> list:
+    state = path.stat()
+    return [state.st_size, state.st_mtime_ns, digest]
+
+
+def _stack(document: Document, cache: Cache, sources: Sources, beat: Callable) -> Generator[Event, None, Prepared]:
+    """The layers as they were cut; a bake has the same."""
+    stack = cache.find(sources.key)
+    if stack is not None:
+        return stack
+    with cache.lock(sources.key, beat):
+        stack = cache.find(sources.key)
+        if stack is None:
+            images = yield from sources.read()
+            yield from map(Warn, images.warnings)
+            stack = yield from cut(images, document.recipe, beat)
+            stack = cache.store(sources.key, stack)
+    return stack
+
+
+def _reduced(stack: Prepared, size: tuple[int, int], longest: int, beat: Callable) -> Prepared:
+    """`scale`: small pixels for a picture's; `size` of the small picture; `boxes`: of its layers."""
+    scale = min(1.0, longest / max(size))
+    parts = PARTS if stack.facts["has_alpha"] else PARTS[:1]
+    arrays, boxes = {}, {part: [] for part in parts}
+    for part in parts:
+        for i, image in enumerate(layer_images(stack, part)):
+            beat()
+            small = engine.scaled_layer(image, size, scale)
+            boxes[part].append(list(small.box))
+            if min(small.box[2:]) > 0:
+                arrays[f"{part}{i}"] = small.pixels
+    facts = {"scale": scale, "size": frame_size(size, scale), "has_alpha": stack.facts["has_alpha"], **boxes}
+    return Prepared(arrays, facts)
+
+
+def reduced(recipe: Recipe, scale: float) -> Recipe:
+    """The recipe of the picture made smaller: every place and velocity of what moves it."""
+    view = recipe.view
+    if view.horizon is not None:
+        view = replace(view, horizon=tuple(_scaled(place, scale) for place in view.horizon))
+    layers = [replace(layer, motion=_reduced_motion(layer.motion, scale)) for layer in recipe.layers]
+    return replace(recipe, view=view, layers=layers)
+
+
+def _reduced_motion(motion, scale: float):
+    match motion:
+        case Sway():
+            return replace(motion, armature=tuple(_scaled(place, scale) for place in motion.armature))
+        case Bob():
+            return replace(motion, waterline=[_scaled(place, scale) for place in motion.waterline])
+        case Drift(velocity=None):
+            return replace(motion, wind=motion.wind * scale)
+        case Drift(velocity=Keys() as keys):
+            return replace(motion, velocity=replace(keys, values=[_scaled(value, scale) for value in keys.values]))
+        case Drift():
+            return replace(motion, velocity=_scaled(motion.velocity, scale))
+    return motion
+
+
+def _scaled(pair: tuple, scale: float) -> tuple:
+    return pair[0] * scale, pair[1] * scale
