@@ -7,6 +7,15 @@ def of(picture, index: int) -> list[str]:
     return [*_matte(layer, index == len(picture.layers) - 1), *_motion(picture, layer)]
 
 
+def horizon(view) -> list[str]:
+    """A sentence where the horizon is not known, which all water needs."""
+    if not view.use_horizon:
+        return ["Say where the horizon is: turn it on in View"]
+    if tuple(view.horizon_start) == tuple(view.horizon_end):
+        return ["Say where the horizon is: place its two ends in View"]
+    return []
+
+
 def _matte(layer, last: bool) -> list[str]:
     matte, fill = layer.matte, layer.fill
     said = []
@@ -24,8 +33,8 @@ def _motion(picture, layer) -> list[str]:
     match motion.type:
         case "sway" if tuple(motion.sway.armature_root) == tuple(motion.sway.armature_tip):
             return ["Draw its sway line, from where it is held to its tip"]
-        case "ripple" if not picture.view.use_horizon:
-            return ["Say where the horizon is: turn it on in View"]
+        case "ripple":
+            return horizon(picture.view)
         case "bob":
             return _bob(picture, motion.bob)
     return []

@@ -1,6 +1,7 @@
 """What all layers share: the wind, and how the picture sees the world."""
 
 from ..ui import sidebar
+from . import missing
 from .presets import STILLWATER_PT_wind_presets
 
 
@@ -29,9 +30,9 @@ class _View(sidebar.OfPicture):
     def draw(self, context):
         picture = context.scene.stillwater.active()
         layout, view = self.layout, picture.view
-        water = [layer.name for layer in picture.layers if layer.motion.type == "ripple"]
-        if water and not view.use_horizon:
-            sidebar.say(context, layout, f"{water[0]} needs the horizon: turn it on and place its two ends", "ERROR")
+        if any(layer.motion.type == "ripple" for layer in picture.layers):
+            for sentence in missing.horizon(view):
+                sidebar.say(context, layout, sentence.removesuffix(" in View"), "ERROR")
         layout.use_property_split = True
         sidebar.draw(layout, view, "use_horizon")
         if view.use_horizon:
