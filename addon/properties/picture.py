@@ -43,10 +43,19 @@ class STILLWATER_PG_wind(bpy.types.PropertyGroup):
     seed: seed()
 
 
+def start_horizon(view, context) -> None:
+    """A horizon that is turned on and was never placed lies level in the middle of the picture."""
+    width, height = view.id_data.path_resolve(view.path_from_id().rpartition(".")[0]).picture_size
+    if view.use_horizon and tuple(view.horizon_start) == tuple(view.horizon_end):
+        view.horizon_start, view.horizon_end = (0, height / 2), (width, height / 2)
+
+
 class STILLWATER_PG_view(bpy.types.PropertyGroup):
     """How the picture sees the world: needed by ripple and bob."""
 
-    use_horizon: BoolProperty(name="Horizon", description="The picture's horizon is known", options=set())
+    use_horizon: BoolProperty(
+        name="Horizon", description="The picture's horizon is known", options=set(), update=start_horizon
+    )
     horizon_start: place("Start", "A point of the horizon; may lie outside the picture")
     horizon_end: place("End", "Another point of the horizon; may lie outside the picture")
     fov: FloatProperty(
