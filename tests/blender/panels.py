@@ -32,7 +32,7 @@ class Recorder:
         assert icon in ICONS
         self.properties.append(name)
 
-    def operator(self, name, text="", icon="NONE"):
+    def operator(self, name, text="", icon="NONE", depress=False):
         room, verb = name.split(".")
         properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
         assert icon in ICONS
