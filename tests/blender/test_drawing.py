@@ -245,7 +245,8 @@ def test_strokes_of_a_role_are_deleted(scene, picture, layers):
 
 def shown() -> dict:
     parts = [show(cls) for cls in registered("view_3d") if cls.poll(bpy.context)]
-    return {kind: [entry for part in parts for entry in getattr(part, kind)] for kind in ("texts", "properties", "operators")}
+    kinds = ("texts", "properties", "operators")
+    return {kind: [entry for part in parts for entry in getattr(part, kind)] for kind in kinds}
 
 
 def test_the_panel_offers_the_roles_that_there_are(scene, picture, layers):
@@ -293,10 +294,14 @@ def test_strokes_go_before_numbers_in_the_recipe(scene, picture, layers, written
     picture.view.use_horizon, picture.view.horizon_start, picture.view.horizon_end = True, (0, 9), (10, 9)
     typed = written()
     assert [layer["motion"].get("armature") for layer in typed["layers"]] == [None, [[1, 2], [3, 4]], None]
-    assert typed["layers"][2]["motion"]["waterline"] == [[5, 6], [7, 8]] and typed["view"]["horizon"] == [[0, 9], [10, 9]]
-    lines = {SWAY: [(100, 700), (90, 300), (120, 20)], WATERLINE: [(500, 500), (600, 510)], HORIZON: [(900, 210), (0, 200)]}
-    for identifier, role in ((picture.layers[1].id, SWAY), (picture.layers[2].id, WATERLINE), ("", HORIZON)):
-        draw(gp_layers.ensure(picture, identifier, role), on_plane(*lines[role]))
+    assert typed["layers"][2]["motion"]["waterline"] == [[5, 6], [7, 8]]
+    assert typed["view"]["horizon"] == [[0, 9], [10, 9]]
+    for identifier, role, line in (
+        (picture.layers[1].id, SWAY, [(100, 700), (90, 300), (120, 20)]),
+        (picture.layers[2].id, WATERLINE, [(500, 500), (600, 510)]),
+        ("", HORIZON, [(900, 210), (0, 200)]),
+    ):
+        draw(gp_layers.ensure(picture, identifier, role), on_plane(*line))
     drawn = written()
     for found, wanted in (
         (drawn["layers"][1]["motion"]["armature"], [(100, 700), (120, 20)]),
