@@ -4,8 +4,11 @@ Nothing else in the extension says `import stillwater`. The extension registers 
 shows `problem()`.
 """
 
+import subprocess
 import sys
 from pathlib import Path
+
+TRIAL = 20  # s: how long a Python may take to load the engine
 
 _engine = None
 _problem = "the engine was not looked for yet"
@@ -49,9 +52,37 @@ def read_recipe(path: str) -> dict:
     return msgspec.to_builtins(_engine.load(path).recipe)
 
 
-def worker_command() -> list[str]:
-    """What starts `python -m stillwater` with the Python that Blender runs. Throws ValueError without an engine."""
+def worker_command(python: str = "") -> list[str]:
+    """What starts `python -m stillwater` with the Python given, or the one that Blender runs.
+
+    Throws ValueError without an engine.
+    """
     if _engine is None:
         raise ValueError(_problem)
-    site = str(Path(_engine.__file__).resolve().parents[1])
-    return [sys.executable, "-I", "-c", _START.format(site=site)]
+    return [python or sys.executable, "-I", "-c", _START.format(site=_site())]
+
+
+def python_problem(python: str) -> str:
+    """Why this Python can't run the worker, as a sentence, found by trying; empty where it can."""
+    if _engine is None:
+        return _problem
+    program = f"import sys; sys.path.insert(0, {_site()!r}); import stillwater; print(stillwater.__version__)"
+    try:
+        done = subprocess.run(
+            [python or sys.executable, "-I", "-c", program],
+            stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=TRIAL,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return f"{python}: gave no answer within {TRIAL} s; is it a Python?"
+    except OSError as error:
+        return f"{python}: can't be started ({error.strerror})"
+    if done.returncode == 0 and done.stdout.strip() == version():
+        return ""
+    words = (done.stderr.strip() or done.stdout.strip()).splitlines()
+    mine = f"Python {sys.version_info.major}.{sys.version_info.minor}"
+    return f"{python}: can't load the engine, which is built for {mine}" + (f" ({words[-1]})" if words else "")
+
+
+def _site() -> str:
+    """The folder that holds the engine's package."""
+    return str(Path(_engine.__file__).resolve().parents[1])

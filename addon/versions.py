@@ -31,6 +31,26 @@ def use_compositor(scene) -> None:
         scene.use_nodes = True
 
 
+def drop_compositor(scene) -> None:
+    """Takes the compositor away from `scene`, where nothing but unconnected outputs are left in it."""
+    tree = compositor_tree(scene)
+    outputs = ("CompositorNodeComposite", "NodeGroupOutput", "CompositorNodeViewer")
+    if tree is None or any(node.bl_idname not in outputs for node in tree.nodes):
+        return
+    if not hasattr(scene, "compositing_node_group"):
+        tree.nodes.clear()
+        scene.use_nodes = False
+        return
+    scene.compositing_node_group = None
+    if tree.users == 0:
+        bpy.data.node_groups.remove(tree)
+
+
+def grease_pencils():
+    """The file's drawings; what 4.5 calls grease_pencils are its annotations."""
+    return bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
+
+
 def output_socket(tree):
     """The input socket of `tree` that takes the composited picture, made where there is none."""
     if hasattr(bpy.types, "CompositorNodeComposite"):  # before 5.0
@@ -43,11 +63,17 @@ def output_socket(tree):
     return (node or tree.nodes.new("NodeGroupOutput")).inputs[0]
 
 
+def grease_pencils():
+    """The file's grease-pencil data; before 5.0 that name meant annotations."""
+    return bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
+
+
 def channelbags(data) -> list:
     """The collections of F-curves that move a datablock, given its animation data: its action's and its strips'."""
     strips = [strip for track in data.nla_tracks for strip in track.strips]
     used = [(data.action, data.action_slot), *((strip.action, strip.action_slot) for strip in strips)]
-    return [bag.fcurves for action, slot in used if (bag := _channelbag(action, slot)) is not None]
+    bags = [bag for action, slot in used if (bag := _channelbag(action, slot)) is not None]
+    return list({bag.as_pointer(): bag.fcurves for bag in bags}.values())  # strips may share an action
 
 
 def stripped_paths(data) -> set[str]:
@@ -68,15 +94,32 @@ def _channelbag(action, slot):
     return strips[0].channelbag(slot) if strips else None
 
 
-def set_curve(datablock, path: str, index: int, points: list[tuple], interpolation: str = "LINEAR") -> None:
-    """Replaces the F-curve of a property of `datablock`: `points` are (frame, value)."""
+def ensure_curve(datablock, path: str, index: int):
+    """The F-curve of a property of `datablock` in its own action, made where it is missing."""
     data = datablock.animation_data or datablock.animation_data_create()
     if data.action is None:
         data.action = bpy.data.actions.new(f"{datablock.name}Action")
-    curve = data.action.fcurve_ensure_for_datablock(datablock, path, index=index)
+    return data.action.fcurve_ensure_for_datablock(datablock, path, index=index)
+
+
+def set_curve(datablock, path: str, index: int, points: list[tuple], interpolation: str = "LINEAR") -> None:
+    """Replaces the F-curve of a property of `datablock`: `points` are (frame, value)."""
+    curve = ensure_curve(datablock, path, index)
     curve.keyframe_points.clear()
     curve.keyframe_points.add(len(points))
     curve.keyframe_points.foreach_set("co", [float(number) for point in points for number in point])
     for key in curve.keyframe_points:
         key.interpolation = interpolation
     curve.update()
+
+
+def scale_curve(datablock, path: str, index: int, factor: float) -> None:
+    """Multiplies the keys of a property's F-curves by `factor`, their handles too."""
+    data = datablock.animation_data
+    for curves in channelbags(data) if data is not None else ():
+        for curve in curves:
+            if curve.data_path == path and curve.array_index == index:
+                for key in curve.keyframe_points:
+                    for point in (key.co, key.handle_left, key.handle_right):
+                        point.y *= factor
+                curve.update()

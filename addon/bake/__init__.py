@@ -3,9 +3,9 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from . import job, operators, panel
+from . import job, leftovers, operators, panel
 
-CLASSES = [*operators.CLASSES, *panel.CLASSES]
+CLASSES = [*operators.CLASSES, *leftovers.CLASSES, *panel.CLASSES]
 
 
 @persistent

@@ -9,8 +9,9 @@ import time
 
 import bpy
 
-from .. import engine, versions
+from .. import engine, preferences, strokes, versions
 from ..compositor import tree as node
+from ..properties import image
 from ..recipe.animation import Animation
 from ..recipe.write import frames_to_sample, recipe_of
 from . import places
@@ -25,6 +26,7 @@ _jobs: dict[int, tuple[Worker, Progress]] = {}  # by the tree's session_uid
 def write_recipe(scene, picture) -> str:
     """Writes the picture's recipe into its folder and returns the file's path."""
     folder = places.folder_of(picture)
+    scene.view_layers[0].update()  # a script may have moved what strokes are seen through
     data = scene.animation_data
     animation = Animation(
         scene,
@@ -33,7 +35,7 @@ def write_recipe(scene, picture) -> str:
         versions.curves_of(data.action, data.action_slot) if data else (),
         versions.stripped_paths(data) if data else (),
     )
-    recipe = recipe_of(scene, picture, animation, places.locate_from(folder))
+    recipe = recipe_of(scene, picture, animation, places.locate_from(folder), strokes.drawn(scene, picture))
     path = folder / "recipe.json"
     unfinished = path.with_suffix(".json.part")
     unfinished.write_text(json.dumps(recipe, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
@@ -43,11 +45,15 @@ def write_recipe(scene, picture) -> str:
 
 def start(scene, picture, fresh: bool = False):
     """Writes the recipe and starts its worker; returns the tree. Throws ValueError and OSError with a sentence."""
-    command = engine.worker_command()
+    chosen = preferences.of(bpy.context)
+    command = engine.worker_command(chosen.python)
     tree = node.claim(scene, picture)
     if tree.session_uid in _jobs:
         raise ValueError(f"{picture.name}: is being baked already")
+    image.take_over(picture)
+    image.check(picture)
     command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent"]
+    command += chosen.worker_options()
     command += ["--fresh"] if fresh else []
     state = tree.stillwater
     state.folder = places.locate_in(places.frames_of(picture))(".")
@@ -69,6 +75,13 @@ def cancel(tree) -> None:
     worker, progress = _jobs[tree.session_uid]
     progress.cancelled = True
     worker.cancel()
+
+
+def end(tree) -> None:
+    """Ends the tree's worker at once, where there is one."""
+    worker, _ = _jobs.pop(tree.session_uid, (None, None))
+    if worker is not None:
+        worker.close()
 
 
 def tick() -> float | None:

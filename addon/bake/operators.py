@@ -1,12 +1,10 @@
-"""Bake, cancel, open a recipe."""
-
-from pathlib import Path
+"""Bake, cancel."""
 
 import bpy
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import BoolProperty
 
 from .. import engine
-from . import job, open_recipe
+from . import job
 
 
 class STILLWATER_OT_bake(bpy.types.Operator):
@@ -69,34 +67,4 @@ class STILLWATER_OT_cancel(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class STILLWATER_OT_load_recipe(bpy.types.Operator):
-    """Open a recipe as a picture of this scene, with its size, frames, frame rate and compositor"""
-
-    bl_idname = "stillwater.load_recipe"
-    bl_label = "Open Recipe"
-    bl_options = {"REGISTER", "UNDO"}
-
-    filepath: StringProperty(name="Recipe", subtype="FILE_PATH", options={"SKIP_SAVE"})
-    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
-
-    @classmethod
-    def poll(cls, context):
-        if engine.problem():
-            cls.poll_message_set(engine.problem())
-            return False
-        return True
-
-    def invoke(self, context, event):
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def execute(self, context):
-        try:
-            open_recipe.open_recipe(context.scene, Path(bpy.path.abspath(self.filepath)))
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
-
-
-CLASSES = [STILLWATER_OT_bake, STILLWATER_OT_cancel, STILLWATER_OT_load_recipe]
+CLASSES = [STILLWATER_OT_bake, STILLWATER_OT_cancel]

@@ -2,6 +2,8 @@
 
     Image node (EXR sequence) -> group output: Image, Alpha, Flow, Matte
 
+Until there are frames, a second Image node gives the picture at rest.
+
 One tree for each picture, shared by all its nodes. Nothing here is a class of ours, so a file renders the same where
 the extension is disabled.
 """
@@ -22,6 +24,7 @@ OUTPUTS = [
     ("Flow", "Flow", "NodeSocketVector"),
     ("Matte", "Matte", "NodeSocketFloat"),
 ]
+AT_REST = [("Image", "Image"), ("Alpha", "Alpha")]
 
 
 def ensure(scene, picture):
@@ -36,7 +39,19 @@ def ensure(scene, picture):
         source.name, source.label = "Frames", "Frames"
         output.location.x = source.location.x + 300
         picture.tree = tree
+    _rest(picture.tree, picture.image)
     return picture.tree
+
+
+def _rest(tree, image) -> None:
+    """The node that gives the picture at rest shows `image`; without one it is not there."""
+    source = tree.nodes.get("Picture")
+    if source is None and image is not None:
+        source = tree.nodes.new("CompositorNodeImage")
+        source.name, source.label = "Picture", "Picture"
+        source.location.y = tree.nodes["Frames"].location.y - 350
+    if source is not None and source.image != image:
+        source.image = image
 
 
 def claim(scene, picture):
@@ -63,13 +78,17 @@ def claim(scene, picture):
 def show(tree) -> list[int]:
     """Points the tree at what lies in its folder now; returns the frames found.
 
-    A frame missing between `first` and `last` shows the nearest that is there. Without any the node gives nothing.
+    A frame missing between `first` and `last` shows the nearest that is there. Without any the node gives the picture
+    at rest.
     """
     state, source = tree.stillwater, tree.nodes["Frames"]
     folder = Path(bpy.path.abspath(state.folder))
-    found = [frame for frame in frames.present(folder, state.name) if state.first <= frame <= state.last]
+    there = frames.present(folder, state.name) if state.folder else []
+    found = [frame for frame in there if state.first <= frame <= state.last]
     if not found:
         source.image = None
+        still = tree.nodes.get("Picture")
+        _link(tree, still, AT_REST if still is not None and still.image is not None else [])
         return found
     _point(source, frames.path_of(folder, state.name, found[0]), f"Stillwater {state.picture}")
     source.frame_start = state.first
@@ -77,10 +96,17 @@ def show(tree) -> list[int]:
     source.use_auto_refresh = True
     source.use_cyclic = False
     _hold(tree, frames.offsets(state.first, state.last, found))
-    output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
-    for name, shown, _ in OUTPUTS:
-        tree.links.new(source.outputs[name], output.inputs[shown])
+    _link(tree, source, [(name, shown) for name, shown, _ in OUTPUTS])
     return found
+
+
+def _link(tree, source, pairs: list[tuple[str, str]]) -> None:
+    """Makes the group give these outputs of `source`, and none of its other source's."""
+    for link in [link for link in tree.links if link.from_node.name in ("Frames", "Picture")]:
+        tree.links.remove(link)
+    output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+    for name, shown in pairs:
+        tree.links.new(source.outputs[name], output.inputs[shown])
 
 
 def _point(source, path: Path, name: str) -> None:
@@ -131,11 +157,38 @@ def nodes_of(scene, picture_id: str) -> list:
     return [node for node in groups if node.node_tree.stillwater.picture == picture_id]
 
 
+def is_free(scene) -> bool:
+    """Whether nothing but the 3D render, or a node of ours, stands at the output of the scene's compositor."""
+    top = versions.compositor_tree(scene)
+    if top is None:
+        return True
+    sources = [link.from_node for link in versions.output_socket(top).links]
+    return all(node.bl_idname == "CompositorNodeRLayers" or _is_ours(node) for node in sources)
+
+
 def wire(scene, tree) -> None:
-    """Makes the scene's render the tree's Image; its alpha is in it. A node that shows it already is used."""
+    """Makes the scene's render the tree's Image; its alpha is in it. A node that shows it already is used.
+
+    A compositor that is new gets a Viewer too, for the backdrop; one that showed another picture shows this.
+    """
+    top = versions.compositor_tree(scene)
+    untouched = top is None or not top.nodes
     node = next(iter(nodes_of(scene, tree.stillwater.picture)), None) or add_node(scene, tree)
     top = versions.compositor_tree(scene)
     output = versions.output_socket(top)
     node.location = (output.node.location.x - 300, output.node.location.y)
     top.links.new(node.outputs["Image"], output)
+    for viewer in _viewers_of_ours(top) or ([top.nodes.new("CompositorNodeViewer")] if untouched else []):
+        viewer.location = (output.node.location.x, output.node.location.y - 150)
+        top.links.new(node.outputs["Image"], viewer.inputs["Image"])
     versions.use_compositor(scene)
+
+
+def _viewers_of_ours(top) -> list:
+    """The nodes that show a picture of ours as the backdrop."""
+    viewers = [node for node in top.nodes if node.bl_idname == "CompositorNodeViewer" and node.inputs["Image"].links]
+    return [viewer for viewer in viewers if _is_ours(viewer.inputs["Image"].links[0].from_node)]
+
+
+def _is_ours(node) -> bool:
+    return node.bl_idname == "CompositorNodeGroup" and node.node_tree is not None and bool(node.node_tree.stillwater.picture)

@@ -1,6 +1,9 @@
 """The list of layers, and what the active one is and does."""
 
+from .. import strokes
 from ..ui import sidebar
+from . import missing, selection
+from .presets import STILLWATER_PT_motion_presets
 
 
 class _Layers(sidebar.OfPicture):
@@ -10,40 +13,116 @@ class _Layers(sidebar.OfPicture):
 
     def draw(self, context):
         picture = context.scene.stillwater.active()
-        row = self.layout.row()
-        row.template_list("STILLWATER_UL_layers", "", picture, "layers", picture, "active_layer", rows=4)
-        column = row.column(align=True)
-        for action, icon in (("add", "ADD"), ("remove", "REMOVE"), ("up", "TRIA_UP"), ("down", "TRIA_DOWN")):
-            column.operator("stillwater.layer", text="", icon=icon).action = action
-        if picture.active_layer < len(picture.layers):
-            self.layout.use_property_split = True
-            _draw_layer(self.layout, picture.layers[picture.active_layer])
+        _draw_list(self.layout, picture)
+        if picture.active_layer >= len(picture.layers):
+            sidebar.say(context, self.layout, "Add a layer for each part of the picture that moves", "INFO")
+            return
+        selected = selection.chosen(picture)
+        if len(selected) > 1:
+            _draw_selection(self.layout, len(selected))
+        layer = picture.layers[picture.active_layer]
+        drawn = strokes.replaced(context.scene, picture, layer)
+        for sentence in missing.of(picture, picture.active_layer, drawn):
+            sidebar.say(context, self.layout, sentence, "ERROR")
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = True
+        _draw_layer(self.layout, layer, drawn)
 
 
-def _draw_layer(layout, layer) -> None:
-    for name in ("opacity", "feather"):
-        layout.prop(layer, name)
-    layout.prop(layer.follows, "layer")
-    if layer.follows.layer_id:
-        layout.prop(layer.follows, "mirror")
-    layout.prop(layer.matte, "form")
-    for name in {"file": ("file", "channel"), "labels": ("labels", "value")}.get(layer.matte.form, ()):
-        layout.prop(layer.matte, name)
-    layout.prop(layer.fill, "method")
-    if layer.fill.method == "file":
-        layout.prop(layer.fill, "file")
+def _draw_list(layout, picture) -> None:
+    row = layout.row()
+    row.template_list("STILLWATER_UL_layers", "", picture, "layers", picture, "active_layer", rows=6)
+    column = row.column(align=True)
+    column.menu("STILLWATER_MT_add_layer", text="", icon="ADD")
+    column.operator("stillwater.remove_layer", text="", icon="REMOVE")
+    column.separator()
+    column.menu("STILLWATER_MT_layers", text="", icon="DOWNARROW_HLT")
+    column.separator()
+    for direction, icon in (("UP", "TRIA_UP"), ("DOWN", "TRIA_DOWN")):
+        column.operator("stillwater.move_layer", text="", icon=icon).direction = direction
+
+
+def _draw_selection(layout, count: int) -> None:
+    box = layout.box().column(align=True)
+    box.label(text=f"{count} layers are selected", icon="CHECKBOX_HLT")
+    row = box.row(align=True)
+    row.operator("stillwater.show_layers", text="Show", icon="HIDE_OFF").visible = True
+    row.operator("stillwater.show_layers", text="Hide", icon="HIDE_ON").visible = False
+    row = box.row(align=True)
+    row.menu("STILLWATER_MT_motion")
+    row.operator("stillwater.copy_to_selected", text="Copy Motion", icon="COPYDOWN").path = "motion"
+
+
+def _draw_layer(layout, layer, drawn: set[str]) -> None:
+    """`drawn`: the numbers that strokes stand for; they are not shown."""
     layout.prop(layer.motion, "type")
-    if layer.motion.type != "still":
-        _draw_motion(layout, getattr(layer.motion, layer.motion.type))
+    if layer.motion.numbers() is not None:
+        STILLWATER_PT_motion_presets.draw_button(layout, "Presets")
+        {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift}[layer.motion.type](
+            layout, layer.motion.numbers(), drawn
+        )
+    _draw_matte(layout, layer)
+    _draw_fill(layout, layer)
+    _draw_rest(layout, layer)
 
 
-def _draw_motion(layout, motion) -> None:
-    column = layout.column()
-    for name in type(motion).__annotations__:
-        if name == "waterline":
-            column.label(text=f"Waterline: {len(motion.waterline)} points")
-        elif not name.endswith("_id"):
-            column.prop(motion, name)
+def _draw_sway(layout, sway, drawn: set[str]) -> None:
+    sidebar.draw(layout, sway, "amount", "frequency", "shimmer")
+    if "armature_tip" not in drawn and (line := sidebar.fold(layout, "stillwater_sway_line", "Sway Line")):
+        sidebar.draw(line, sway, "armature_root", "armature_tip")
+    if details := sidebar.fold(layout, "stillwater_sway", "Details"):
+        sidebar.draw(details, sway, "foreshortening", "mass", "damping", "seed")
+
+
+def _draw_ripple(layout, ripple, drawn: set[str]) -> None:
+    sidebar.draw(layout, ripple, "mode", "amplitude", "tile")
+    if details := sidebar.fold(layout, "stillwater_ripple", "Details"):
+        sidebar.draw(details, ripple, "roughness", "resolution")
+        by = {"jonswap": ("fetch",), "tma": ("fetch", "depth")}.get(ripple.spectrum, ())
+        sidebar.draw(details, ripple, "spectrum", *by)
+        sidebar.draw(details, ripple, "seed")
+
+
+def _draw_bob(layout, bob, drawn: set[str]) -> None:
+    sidebar.draw(layout, bob, "water", "amount")
+    if "waterline" in drawn:
+        return
+    line = sidebar.fold(layout, "stillwater_waterline", f"Waterline: {len(bob.waterline)} Points")
+    if line is None:
+        return
+    line.use_property_split = False
+    column = line.column(align=True)
+    for i, point in enumerate(bob.waterline):
+        row = column.row(align=True)
+        row.prop(point, "place", text="")
+        row.operator("stillwater.remove_waterline_point", text="", icon="X").index = i
+    row = line.row(align=True)
+    row.operator("stillwater.add_waterline_point", text="Add Point", icon="ADD")
+    row.operator("stillwater.clear_waterline", text="Clear", icon="TRASH")
+
+
+def _draw_drift(layout, drift, drawn: set[str]) -> None:
+    sidebar.draw(layout, drift, "use_velocity")
+    sidebar.draw(layout, drift, "velocity" if drift.use_velocity else "wind")
+
+
+def _draw_matte(layout, layer) -> None:
+    if part := sidebar.fold(layout, "stillwater_matte", "Matte", closed=False):
+        named = {"file": ("file", "channel"), "labels": ("labels", "value")}
+        sidebar.draw(part, layer.matte, "form")
+        sidebar.draw(part, layer.matte, *named.get(layer.matte.form, ()))
+        sidebar.draw(part, layer, "feather")
+
+
+def _draw_fill(layout, layer) -> None:
+    if part := sidebar.fold(layout, "stillwater_fill", "Behind"):
+        sidebar.draw(part, layer.fill, "method", *(("file",) if layer.fill.method == "file" else ()))
+
+
+def _draw_rest(layout, layer) -> None:
+    if part := sidebar.fold(layout, "stillwater_rest", "Blending and Following"):
+        sidebar.draw(part, layer, "opacity")
+        sidebar.draw(part, layer.follows, "layer", *(("mirror",) if layer.follows.layer_id else ()))
 
 
 CLASSES = sidebar.in_both_editors("layers", _Layers)

@@ -1,14 +1,26 @@
 """What all layers share: the wind, and how the picture sees the world."""
 
+from .. import strokes
 from ..ui import sidebar
+from .presets import STILLWATER_PT_wind_presets
 
 
 class _Wind(sidebar.OfPicture):
     bl_label = "Wind"
     bl_order = 3
 
+    def draw_header_preset(self, context):
+        row = self.layout.row()
+        row.emboss = "NONE"
+        STILLWATER_PT_wind_presets.draw_button(row)
+
     def draw(self, context):
-        sidebar.draw_all(self.layout, context.scene.stillwater.active().wind)
+        layout, wind = self.layout, context.scene.stillwater.active().wind
+        layout.use_property_split = True
+        sidebar.draw(layout, wind, "speed", "direction")
+        sidebar.draw(layout, wind, "gusts", "gust_size")
+        if details := sidebar.fold(layout, "stillwater_wind", "Details"):
+            sidebar.draw(details, wind, "seed")
 
 
 class _View(sidebar.OfPicture):
@@ -16,7 +28,18 @@ class _View(sidebar.OfPicture):
     bl_order = 4
 
     def draw(self, context):
-        sidebar.draw_all(self.layout, context.scene.stillwater.active().view)
+        picture = context.scene.stillwater.active()
+        layout, view = self.layout, picture.view
+        water = [layer.name for layer in picture.layers if layer.motion.type == "ripple"]
+        drawn = "use_horizon" in strokes.replaced(context.scene, picture)
+        if water and not view.use_horizon and not drawn:
+            sidebar.say(context, layout, f"{water[0]} needs the horizon: draw it, or turn it on and place its ends", "ERROR")
+        layout.use_property_split = True
+        if not drawn:
+            sidebar.draw(layout, view, "use_horizon")
+            if view.use_horizon:
+                sidebar.draw(layout, view, "horizon_start", "horizon_end")
+        sidebar.draw(layout, view, "fov", "height")
 
 
 CLASSES = [*sidebar.in_both_editors("wind", _Wind), *sidebar.in_both_editors("view", _View)]

@@ -2,9 +2,9 @@
 
 import bpy
 
-from . import layer, motions, picture
+from . import drawing, layer, motions, picture
 
-CLASSES = [*motions.CLASSES, *layer.CLASSES, *picture.CLASSES]
+CLASSES = [*motions.CLASSES, *layer.CLASSES, *drawing.CLASSES, *picture.CLASSES]
 
 
 def register():

@@ -52,23 +52,47 @@ class STILLWATER_PG_follows(bpy.types.PropertyGroup):
     mirror: BoolProperty(name="Mirror", description="Mirrored, as a reflection", options=set())
 
 
+def select_active(picture, context) -> None:
+    """Clicking a layer selects it alone; one that is selected already becomes the active one of the selection."""
+    if picture.active_layer < len(picture.layers) and not picture.layers[picture.active_layer].selected:
+        for i, layer in enumerate(picture.layers):
+            layer.selected = i == picture.active_layer
+
+
 class STILLWATER_PG_layer(bpy.types.PropertyGroup):
     """One piece of the picture and its motion."""
 
     id: StringProperty(options={"HIDDEN"})
     name: StringProperty(
         name="Name", description="Unique in its picture", maxlen=200, options=set(),
-        update=lambda self, context: names.make_unique(self, names.picture_of(self).layers),
+        update=lambda self, context: names.rename_layer(self),
     )
-    visible: BoolProperty(name="Visible", description="A hidden layer shows its fill", default=True, options=set())
+    selected: BoolProperty(
+        name="Select", description="Take the layer along in what is done to all selected ones. Drag over several boxes",
+        options=set(),
+    )
+    visible: BoolProperty(
+        name="Visible", description="Show the layer; a hidden one shows what fills the hole behind it",
+        default=True, options=set(),
+    )
+    solo: BoolProperty(
+        name="Solo", options=set(),
+        description="See only the layers with a star while playing; what is baked are always all visible layers",
+    )
     opacity: FloatProperty(name="Opacity", description="Of the layer (0..1)", default=1, min=0, max=1, subtype="FACTOR")
     feather: FloatProperty(
-        name="Feather", description="Softens the matte [px]", default=0, min=0, max=1000, soft_max=50, options=set()
+        name="Feather", description="Softens the matte [px]", subtype="PIXEL",
+        default=0, min=0, max=1000, soft_max=50, options=set(),
     )
     follows: PointerProperty(type=STILLWATER_PG_follows)
     matte: PointerProperty(type=STILLWATER_PG_matte)
     fill: PointerProperty(type=STILLWATER_PG_fill)
     motion: PointerProperty(type=STILLWATER_PG_motion)
+
+    def seen(self) -> bool:
+        """Whether it is seen while playing: visible, and one of those with a star where there are any."""
+        solo = any(layer.solo for layer in names.picture_of(self).layers)
+        return self.visible and (self.solo or not solo)
 
 
 CLASSES = [STILLWATER_PG_matte, STILLWATER_PG_fill, STILLWATER_PG_follows, STILLWATER_PG_layer]

@@ -14,14 +14,18 @@ from bpy.props import (
 
 from . import names
 
+ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE"}
+ICONS["drift"] = "OUTLINER_OB_VOLUME"
+# Of a motion, what belongs to one place of one picture; the rest is its look, which presets hold.
+PLACES = {"armature_root", "armature_tip", "waterline", "water_id", "water", "seed"}
 FAR = 1e6  # px: as far from the picture as a place may be
 
 
 def place(name: str, description: str):
     """A place in the picture: px from its top left corner, y down."""
     return FloatVectorProperty(
-        name=name, description=f"{description} [px from the top left corner, y down]", size=2, min=-FAR, max=FAR,
-        precision=1, step=100, options=set(),
+        name=name, description=f"{description} [px from the top left corner, y down]", size=2, subtype="XYZ",
+        min=-FAR, max=FAR, precision=1, step=100, options=set(),
     )
 
 
@@ -57,11 +61,11 @@ class STILLWATER_PG_sway(bpy.types.PropertyGroup):
         default=1, min=0, max=1000, soft_max=5,
     )
     foreshortening: FloatProperty(
-        name="Foreshortening", description="How much it shortens as it bends away (0..1)",
+        name="Foreshortening", description="How much it shortens as it bends away (0..1)", subtype="FACTOR",
         default=0, min=0, max=1, options=set(),
     )
     shimmer: FloatProperty(
-        name="Shimmer", description="Small independent motion of leaves (0..1)",
+        name="Shimmer", description="Small independent motion of leaves (0..1)", subtype="FACTOR",
         default=0, min=0, max=1, options=set(),
     )
     seed: seed()
@@ -72,7 +76,7 @@ class STILLWATER_PG_ripple(bpy.types.PropertyGroup):
 
     amplitude: FloatProperty(
         name="Amplitude", description="Height of the waves; 1 is a grown sea at this wind",
-        default=1, min=0, max=1000, soft_max=5,
+        default=1, min=0, max=1000, soft_max=2,
     )
     roughness: FloatProperty(
         name="Roughness", description="How many times the field is tiled over the same water",
@@ -117,7 +121,7 @@ class STILLWATER_PG_bob(bpy.types.PropertyGroup):
     water_id: StringProperty(options={"HIDDEN"})
     water: StringProperty(
         name="Water", description="The ripple layer that carries it", options=set(),
-        get=names.get_layer("water_id"), set=names.set_layer("water_id"), search=names.search_layers,
+        get=names.get_layer("water_id"), set=names.set_layer("water_id"), search=names.search_water,
     )
     amount: FloatProperty(
         name="Amount", description="Strength; 1 goes with the water", default=1, min=0, max=1000, soft_max=5
@@ -131,12 +135,12 @@ class STILLWATER_PG_drift(bpy.types.PropertyGroup):
         name="Own Velocity", description="Goes at a velocity of its own, not with the wind", options=set()
     )
     velocity: FloatVectorProperty(
-        name="Velocity", description="To the right and down [px/frame]", size=2,
+        name="Velocity", description="To the right and down [px/frame]", size=2, subtype="XYZ",
         min=-1e4, max=1e4, soft_min=-20, soft_max=20, precision=3,
     )
     wind: FloatProperty(
         name="With the Wind", description="Speed for each m/s of wind along the picture [px/frame]",
-        default=0.5, min=-1000, max=1000, soft_min=-5, soft_max=5, options=set(),
+        default=0.5, min=-1000, max=1000, soft_min=-2, soft_max=2, precision=3, options=set(),
     )
 
 
@@ -146,17 +150,21 @@ class STILLWATER_PG_motion(bpy.types.PropertyGroup):
     type: EnumProperty(
         name="Motion", description="What the layer does", default="still", options=set(),
         items=[
-            ("still", "Still", "Does not move"),
-            ("sway", "Sway", "Trees, plants, flags: bends in the wind"),
-            ("ripple", "Ripple", "Water: waves under the wind"),
-            ("bob", "Bob", "Boats: heaves and rolls with the water"),
-            ("drift", "Drift", "Clouds: passes endlessly"),
+            ("still", "Still", "Does not move", ICONS["still"], 0),
+            ("sway", "Sway", "Trees, plants, flags: bends in the wind", ICONS["sway"], 1),
+            ("ripple", "Ripple", "Water: waves under the wind", ICONS["ripple"], 2),
+            ("bob", "Bob", "Boats: heaves and rolls with the water", ICONS["bob"], 3),
+            ("drift", "Drift", "Clouds: passes endlessly", ICONS["drift"], 4),
         ],
     )
     sway: PointerProperty(type=STILLWATER_PG_sway)
     ripple: PointerProperty(type=STILLWATER_PG_ripple)
     bob: PointerProperty(type=STILLWATER_PG_bob)
     drift: PointerProperty(type=STILLWATER_PG_drift)
+
+    def numbers(self):
+        """The numbers of its type; None for still."""
+        return getattr(self, self.type, None)
 
 
 CLASSES = [

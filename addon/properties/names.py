@@ -1,9 +1,11 @@
 """Layers know each other by permanent ids; the artist sees names. Renaming a layer breaks nothing."""
 
+import re
 import uuid
 
 import bpy
 
+renamed = []  # called with a picture when a layer of it was renamed; rooms that keep names add themselves
 PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"}  # options of a property that holds one: not to be keyed
 
 
@@ -27,6 +29,12 @@ def layer_by_id(picture, identifier: str):
     return next((layer for layer in picture.layers if identifier and layer.id == identifier), None)
 
 
+def other_layers(part) -> list:
+    """The layers of its picture but for the one that `part` is of."""
+    own = part.path_from_id()
+    return [layer for layer in picture_of(part).layers if not own.startswith(f"{layer.path_from_id()}.")]
+
+
 def get_layer(field: str):
     """Reads a property that shows the name of the layer whose id stands in `field`."""
 
@@ -38,26 +46,40 @@ def get_layer(field: str):
 
 
 def set_layer(field: str):
-    """Writes such a property: a name that no layer has leaves it empty."""
+    """Writes such a property: a name that no other layer has leaves it empty."""
 
     def set(self, name):
-        setattr(self, field, next((layer.id for layer in picture_of(self).layers if layer.name == name), ""))
+        setattr(self, field, next((layer.id for layer in other_layers(self) if layer.name == name), ""))
 
     return set
 
 
 def search_layers(self, context, text):
-    """The names offered for such a property."""
-    return [layer.name for layer in picture_of(self).layers if text.lower() in layer.name.lower()]
+    """The names offered for such a property: all but the layer's own."""
+    return [layer.name for layer in other_layers(self) if text.lower() in layer.name.lower()]
+
+
+def search_water(self, context, text):
+    """The names offered where a layer of water is asked for."""
+    water = {layer.name for layer in picture_of(self).layers if layer.motion.type == "ripple"}
+    return [name for name in search_layers(self, context, text) if name in water]
 
 
 def make_unique(item, siblings) -> None:
-    """Gives `item` a name that none of its siblings has, as Blender does: Boat, Boat.001, ..."""
+    """Gives `item` a name that none of its siblings has, as Blender does: Boat, Boat.001, Boat.002, ..."""
     taken = {other.name for other in siblings if other.as_pointer() != item.as_pointer()}
-    base = item.name or "Unnamed"
-    name, count = base, 0
+    name, count = item.name or "Unnamed", 0
+    base = re.sub(r"\.\d{3,}$", "", name)
     while name in taken:
         count += 1
         name = f"{base}.{count:03d}"
     if name != item.name:
         item.name = name
+
+
+def rename_layer(layer) -> None:
+    """After a layer got a name: makes it unique, and tells who keeps it."""
+    picture = picture_of(layer)
+    make_unique(layer, picture.layers)
+    for follow in renamed:
+        follow(picture)

@@ -8,14 +8,16 @@ from bpy.props import (
     CollectionProperty,
     EnumProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     IntVectorProperty,
     PointerProperty,
     StringProperty,
 )
 
-from . import names
-from .layer import STILLWATER_PG_layer
+from . import image, names
+from .drawing import STILLWATER_PG_drawing
+from .layer import STILLWATER_PG_layer, select_active
 from .motions import place, seed
 
 COMPRESSIONS = ["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"]
@@ -90,9 +92,11 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
         name="Name", description="Unique in the file", maxlen=60, options=set(),
         update=lambda self, context: names.make_unique(self, names.all_pictures()),
     )
-    picture: StringProperty(name="Picture", description="Image file", subtype="FILE_PATH", options=names.PATH)
+    picture: StringProperty(
+        name="Picture", description="Image file", subtype="FILE_PATH", options=names.PATH, update=image.follow
+    )
     colour_space: EnumProperty(
-        name="Colour Space", description="Of the picture", default="auto", options=set(),
+        name="Color Space", description="Of the picture", default="auto", options=set(), update=image.follow,
         items=[
             ("auto", "Auto", "Linear for EXR and HDR, sRGB else"),
             ("srgb", "sRGB", "As most pictures are"),
@@ -109,15 +113,40 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     plane: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the image Empty that shows it (plane.py)
     camera: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # sees just the plane
     strokes: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})  # the grease pencil drawn on it
+    collection: PointerProperty(type=bpy.types.Collection, options={"HIDDEN"})  # holds these three
+    image: PointerProperty(type=bpy.types.Image, options={"HIDDEN"})  # the file as plane and node show it (image.py)
+    missing: BoolProperty(options={"HIDDEN"})  # the file was not found when it was last looked for
     picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
-    active_layer: IntProperty(min=0, options={"HIDDEN"})
+    active_layer: IntProperty(min=0, options={"HIDDEN"}, update=select_active)
+
+
+class STILLWATER_PG_former(bpy.types.PropertyGroup):
+    """How the scene was set before its first picture was opened, for going back (pictures/scene.py)."""
+
+    kept: BoolProperty(options={"HIDDEN"})
+    camera: PointerProperty(type=bpy.types.Object, options={"HIDDEN"})
+    resolution: IntVectorProperty(size=2, options={"HIDDEN"})
+    resolution_percentage: IntProperty(options={"HIDDEN"})
+    pixel_aspect: FloatVectorProperty(size=2, options={"HIDDEN"})
+    fps: IntProperty(options={"HIDDEN"})
+    fps_base: FloatProperty(options={"HIDDEN"})
+    display_device: StringProperty(options={"HIDDEN"})
+    view_transform: StringProperty(options={"HIDDEN"})
+    look: StringProperty(options={"HIDDEN"})
+    exposure: FloatProperty(options={"HIDDEN"})
+    gamma: FloatProperty(options={"HIDDEN"})
+    use_curve_mapping: BoolProperty(options={"HIDDEN"})
+    use_white_balance: BoolProperty(options={"HIDDEN"})
 
 
 class STILLWATER_PG_scene(bpy.types.PropertyGroup):
     """The scene's pictures."""
 
+    version: IntProperty(options={"HIDDEN"})  # of these properties (migrate.py); 0: older than versions are
+    former: PointerProperty(type=STILLWATER_PG_former)
     pictures: CollectionProperty(type=STILLWATER_PG_picture)
     active_picture: IntProperty(min=0, options={"HIDDEN"})
+    drawing: PointerProperty(type=STILLWATER_PG_drawing)
 
     def active(self):
         """The picture that panels and operators mean; None where there is none."""
@@ -129,5 +158,6 @@ CLASSES = [
     STILLWATER_PG_view,
     STILLWATER_PG_output,
     STILLWATER_PG_picture,
+    STILLWATER_PG_former,
     STILLWATER_PG_scene,
 ]

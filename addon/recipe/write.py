@@ -10,21 +10,26 @@ from .animation import Animation
 from .numbers import over_time, plain
 
 Locate = Callable[[str], str]  # a path as Blender keeps it -> as the recipe has it
+Drawn = Callable[[str, str], list | None]  # a layer's id ("" = the picture), a role -> what its strokes say, if any
 
 
-def recipe_of(scene, picture, animation: Animation, locate: Locate) -> dict:
-    """The recipe of one picture of `scene`. What was left empty is left out: the engine says what it misses."""
+def recipe_of(scene, picture, animation: Animation, locate: Locate, drawn: Drawn) -> dict:
+    """The recipe of one picture of `scene`. What was left empty is left out: the engine says what it misses.
+
+    What is drawn goes before what is typed.
+    """
     return {
         "stillwater": 1,
         **_given("picture", picture.picture and locate(picture.picture)),
         "colour_space": picture.colour_space,
+        **_given("size", list(picture.picture_size) if all(picture.picture_size) else None),
         "frames": [scene.frame_start, scene.frame_end],
         "fps": plain(scene.render.fps / scene.render.fps_base),
         "seed": picture.seed,
         "loop": picture.loop,
         "wind": _fields(picture.wind, animation),
-        "view": _view(picture.view, animation),
-        "layers": [_layer(picture, layer, animation, locate) for layer in picture.layers],
+        "view": _view(picture.view, animation, drawn),
+        "layers": [_layer(picture, layer, animation, locate, drawn) for layer in picture.layers],
         "output": _fields(picture.output, animation),
     }
 
@@ -70,20 +75,21 @@ def _line(group, start: str, end: str) -> list:
     return [[plain(v) for v in getattr(group, name)] for name in (start, end)]
 
 
-def _view(view, animation: Animation) -> dict:
+def _view(view, animation: Animation, drawn: Drawn) -> dict:
     written = _fields(view, animation, but=("use_horizon", "horizon_start", "horizon_end"))
-    horizon = _line(view, "horizon_start", "horizon_end") if view.use_horizon else None
+    typed = _line(view, "horizon_start", "horizon_end") if view.use_horizon else None
+    horizon = drawn("", "horizon") or typed
     return {**_given("horizon", horizon), **written}
 
 
-def _layer(picture, layer, animation: Animation, locate: Locate) -> dict:
+def _layer(picture, layer, animation: Animation, locate: Locate, drawn: Drawn) -> dict:
     followed = layer.follows.layer
     return {
-        **_fields(layer, animation, but=("id", "follows", "matte", "fill", "motion")),
+        **_fields(layer, animation, but=("id", "selected", "solo", "follows", "matte", "fill", "motion")),
         **_given("follows", followed and {"layer": followed, "mirror": layer.follows.mirror}),
         **_given("matte", _matte(layer.matte, locate)),
         "fill": {"file": locate(layer.fill.file)} if layer.fill.method == "file" else {"method": layer.fill.method},
-        "motion": _motion(layer.motion, animation),
+        "motion": _motion(layer, animation, drawn),
     }
 
 
@@ -96,17 +102,19 @@ def _matte(matte, locate: Locate) -> dict | None:
     return None
 
 
-def _motion(motion, animation: Animation) -> dict:
+def _motion(layer, animation: Animation, drawn: Drawn) -> dict:
+    motion = layer.motion
     match motion.type:
         case "sway":
-            armature = _line(motion.sway, "armature_root", "armature_tip")
+            armature = drawn(layer.id, "sway_line") or _line(motion.sway, "armature_root", "armature_tip")
             numbers = _fields(motion.sway, animation, but=("armature_root", "armature_tip"))
             return {"type": "sway", "armature": armature, **numbers}
         case "ripple":
             numbers = _fields(motion.ripple, animation)
             return {"type": "ripple", **numbers, "resolution": int(numbers["resolution"])}
         case "bob":
-            waterline = [[plain(v) for v in point.place] for point in motion.bob.waterline]
+            typed = [[plain(v) for v in point.place] for point in motion.bob.waterline]
+            waterline = drawn(layer.id, "waterline") or typed
             numbers = _fields(motion.bob, animation, but=("waterline", "water_id"))
             return {"type": "bob", "waterline": waterline, **numbers}
         case "drift":

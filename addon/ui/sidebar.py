@@ -4,6 +4,7 @@
     CLASSES = sidebar.in_both_editors("layers", _Layers)
 """
 
+import re
 import textwrap
 
 import bpy
@@ -40,6 +41,11 @@ def in_both_editors(name: str, part: type) -> list[type]:
     return [_panel(editor, name, part) for editor in EDITORS]
 
 
+def in_viewport(name: str, part: type) -> list[type]:
+    """Its panel where only the 3D viewport has one."""
+    return [_panel("VIEW_3D", name, part)]
+
+
 def _panel(editor: str, name: str, part: type) -> type:
     parent = f"STILLWATER_PT_{editor.lower()}"
     place = {"bl_space_type": editor, **({"bl_parent_id": parent} if name else {})}
@@ -56,7 +62,27 @@ def say(context, layout, sentence: str, icon: str) -> None:
 
 
 def draw_all(layout, group) -> None:
+    """All properties of a group, in the order in which they are declared."""
     layout.use_property_split = True
-    column = layout.column()
-    for name in type(group).__annotations__:
-        column.prop(group, name)
+    draw(layout, group, *type(group).__annotations__)
+
+
+def draw(layout, group, *names: str) -> None:
+    """Properties that belong together, closely below each other, with the units that Blender would not show."""
+    column = layout.column(align=True)
+    for name in names:
+        column.prop(group, name, text=label(group.bl_rna.properties[name]))
+
+
+def label(kind) -> str:
+    """A property's name, with the unit that stands at the end of its description: Speed (m/s)."""
+    found = re.search(r" \[([\w/]+)\]$", kind.description)
+    shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
+    return f"{kind.name} ({found[1]})" if found and not shown else kind.name
+
+
+def fold(layout, identifier: str, text: str, closed: bool = True):
+    """A part that can be folded away, closed until it is asked for; None while it is folded."""
+    header, body = layout.panel(identifier, default_closed=closed)
+    header.label(text=text)
+    return body

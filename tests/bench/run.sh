@@ -7,4 +7,7 @@ prepare_engine || exit 1
 # cv::remap is what the displacement is measured against.
 "$build/venv/bin/python" -c "import cv2" 2>/dev/null ||
   "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check opencv-python-headless || exit 1
+# The extension is measured in Blender.
+prepare_blender pytest pytest-timeout hypothesis && prepare_extension || exit 1
+export STILLWATER_BUILD="$build"
 exec "$build/venv/bin/python" tests/bench/run.py "$@"

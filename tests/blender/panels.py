@@ -11,13 +11,15 @@ class Recorder:
     """Stands for Blender's layout: takes any call, keeps texts and properties, and checks that these exist."""
 
     def __init__(self):
-        self.texts, self.properties, self.operators = [], [], []
+        self.texts, self.properties, self.operators, self.lists, self.menus, self.made = [], [], [], [], [], []
 
     def __getattr__(self, name):
         if name in ("row", "column", "box", "split"):
             return lambda **_: self
         if name in ("separator",):
             return lambda **_: None
+        if name == "panel":  # all that can be folded is shown unfolded
+            return lambda identifier, default_closed=False: (self, self)
         raise AttributeError(name)
 
     def label(self, text="", icon="NONE"):
@@ -27,20 +29,33 @@ class Recorder:
     def progress(self, factor=0.0, text=""):
         self.texts.append(text)
 
-    def prop(self, data, name, text="", icon="NONE", emboss=True):
+    def prop(self, data, name, text="", icon="NONE", emboss=True, placeholder=""):
         getattr(data, name)
         assert icon in ICONS
         self.properties.append(name)
+
+    def menu(self, name, text="", icon="NONE"):
+        assert getattr(bpy.types, name).is_registered and icon in ICONS
+        self.menus.append(name)
+
+    def popover(self, panel, text="", icon="NONE"):
+        self.menu(panel, text, icon)
 
     def operator(self, name, text="", icon="NONE"):
         room, verb = name.split(".")
         properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
         assert icon in ICONS
         self.operators.append(name)
-        return SimpleNamespace(**{kind.identifier: None for kind in properties})
+        self.texts.append(text)
+        self.made.append(SimpleNamespace(**{kind.identifier: None for kind in properties}))
+        return self.made[-1]
+
+    def operator_menu_enum(self, name, property):
+        self.operator(name)
 
     def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
+        self.lists.append(active_name)
 
 
 def registered(editor: str) -> list[type]:

@@ -15,6 +15,7 @@ def whole() -> dict:
         "stillwater": 1,
         "picture": "picture.png",
         "colour_space": "linear",
+        "size": [32, 16],
         "frames": [3, 6],
         "fps": 23.976,
         "seed": 12,

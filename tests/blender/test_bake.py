@@ -28,7 +28,7 @@ def worker(extension, scene, saved, tmp_path, monkeypatch):
 
     def use(mode):
         command = [sys.executable, str(FAKE), mode, str(tmp_path / "made")]
-        monkeypatch.setattr(extension.engine, "worker_command", lambda: list(command))
+        monkeypatch.setattr(extension.engine, "worker_command", lambda python="": list(command))
         return frames
 
     yield use
@@ -138,9 +138,9 @@ def test_one_picture_is_baked_once_at_a_time(extension, worker, state):
 def test_fresh_is_passed_on(worker, saved):
     worker("plain")
     bpy.ops.stillwater.bake(fresh=True)
-    assert (saved / "options.txt").read_text() == "--progress json --parent --fresh"
+    assert (saved / "options.txt").read_text() == "--progress json --parent --cache-limit 4 --fresh"
     bpy.ops.stillwater.bake()
-    assert (saved / "options.txt").read_text() == "--progress json --parent"
+    assert (saved / "options.txt").read_text() == "--progress json --parent --cache-limit 4"
 
 
 def test_another_file_ends_the_worker(extension, worker):
@@ -203,7 +203,7 @@ time.sleep(60)
 
 
 def test_a_worker_that_can_t_be_started_is_a_sentence(extension, saved, monkeypatch):
-    monkeypatch.setattr(extension.engine, "worker_command", lambda: ["/nowhere/python"])
+    monkeypatch.setattr(extension.engine, "worker_command", lambda python: ["/nowhere/python"])
     with pytest.raises(RuntimeError, match="No such file or directory: '/nowhere/python'"):
         bpy.ops.stillwater.bake()
     assert not extension.bake.job._jobs

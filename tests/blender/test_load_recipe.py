@@ -48,10 +48,16 @@ def test_frame_rates_come_back(extension, opened, fps):
         assert json.load(file)["fps"] == pytest.approx(fps, abs=1e-3)
 
 
-def test_a_render_needs_no_camera_and_renders_no_3d(extension, opened):
+def test_it_can_be_drawn_on(opened):
+    opened()
+    picture = bpy.context.scene.stillwater.active()
+    assert bpy.context.scene.camera == picture.camera and picture.plane.data == picture.image
+    assert tuple(picture.picture_size) == (32, 16) and bpy.context.view_layer.objects.active == picture.strokes
+
+
+def test_a_render_renders_no_3d(extension, opened):
     opened()
     tree = extension.versions.compositor_tree(bpy.context.scene)
-    assert bpy.context.scene.camera is None
     assert all(node.bl_idname != "CompositorNodeRLayers" for node in tree.nodes)
 
 

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from panels import Recorder, draw, registered
+from pictures import HEIGHT, WIDTH, paint
 
 
 @pytest.fixture
@@ -13,7 +14,7 @@ def panel(extension):
 
     def show(editor="view_3d"):
         shown = [draw(cls) for cls in registered(editor) if not hasattr(cls, "poll") or cls.poll(bpy.context)]
-        kinds = ("texts", "properties", "operators")
+        kinds = ("texts", "properties", "operators", "lists")
         return {kind: [entry for part in shown for entry in getattr(part, kind)] for kind in kinds}
 
     return show
@@ -22,7 +23,7 @@ def panel(extension):
 @pytest.mark.parametrize("editor", ["view_3d", "node_editor"])
 def test_an_empty_scene_offers_a_picture(scene, panel, editor):
     shown = panel(editor)
-    assert shown["operators"] == ["stillwater.add_picture", "stillwater.load_recipe"]
+    assert shown["operators"] == ["stillwater.open_picture", "stillwater.load_recipe"]
     assert shown["texts"][0].startswith("Engine ")
 
 
@@ -34,19 +35,53 @@ def test_only_the_compositor_s_node_editor_shows_it(extension, scene, picture, t
 
 def test_panels_stand_in_the_order_of_the_work(scene):
     labels = [cls.bl_label for cls in registered("view_3d")]
-    assert labels == ["Stillwater", "Layers", "Wind", "View", "Bake", "Output"]
+    assert labels == ["Stillwater", "Picture", "Layers", "Strokes", "Wind", "View", "Bake", "Output"]
 
 
 @pytest.mark.parametrize("motion", ["still", "sway", "ripple", "bob", "drift"])
 def test_every_number_of_a_motion_is_shown(scene, picture, panel, motion):
-    picture.layers[0].motion.type = motion
+    layer = picture.layers[0]
+    layer.motion.type, layer.motion.ripple.spectrum = motion, "tma"
+    layer.motion.bob.waterline.add()
     shown = panel()["properties"]
-    row = Recorder()
-    bpy.types.STILLWATER_UL_layers.draw_item(None, bpy.context, row, picture, picture.layers[0], 0, picture, "", 0)
-    assert row.properties == ["name", "visible"]
-    group = getattr(picture.layers[0].motion, motion, None)
+    layer.motion.drift.use_velocity = True
+    shown += panel()["properties"]
+    group = layer.motion.numbers()
     wanted = [] if group is None else [n for n in type(group).__annotations__ if n not in ("waterline", "water_id")]
     assert set(wanted) <= set(shown) and "speed" in shown and "fov" in shown and "compression" in shown
+    assert ("place" in shown) == (motion == "bob")
+
+
+@pytest.mark.parametrize("spectrum, names", [("phillips", []), ("jonswap", ["fetch"]), ("tma", ["fetch", "depth"])])
+def test_only_what_a_spectrum_needs_is_shown(picture, panel, spectrum, names):
+    picture.layers[0].motion.type, picture.layers[0].motion.ripple.spectrum = "ripple", spectrum
+    assert [name for name in panel()["properties"] if name in ("fetch", "depth")] == names + ["depth"]  # the output's
+
+
+def row(picture, index: int) -> Recorder:
+    drawn = Recorder()
+    layer = picture.layers[index]
+    bpy.types.STILLWATER_UL_layers.draw_item(None, bpy.context, drawn, picture, layer, 0, picture, "", index)
+    return drawn
+
+
+def test_a_row_of_the_list_warns_where_something_is_missing(extension, picture):
+    extension.properties.arrange.add_layer(picture, "sky")
+    assert row(picture, 0).properties == row(picture, 1).properties == ["selected", "name", "solo", "visible"]
+    assert (row(picture, 0).texts, row(picture, 1).texts) == ([""], [])
+
+
+def test_units_are_told_where_blender_shows_none(picture, extension):
+    label, kinds = extension.ui.sidebar.label, lambda group: group.bl_rna.properties
+    wind, view, layer = picture.wind, picture.view, picture.layers[0]
+    motion = layer.motion
+    said = [label(kinds(wind)[name]) for name in ("speed", "direction", "gusts", "gust_size")]
+    assert said == ["Speed (m/s)", "Direction", "Gusts", "Gust Size"]
+    assert (label(kinds(view)["fov"]), label(kinds(view)["height"])) == ("Field of View", "Eye Height (m)")
+    assert [label(kinds(motion.sway)[name]) for name in ("frequency", "damping")] == ["Frequency (Hz)", "Damping (1/s)"]
+    assert label(kinds(motion.drift)["velocity"]) == "Velocity (px/frame)"
+    assert label(kinds(layer)["feather"]) == "Feather"
+    assert label(kinds(motion.sway)["armature_root"]) == "Root" and label(kinds(motion.ripple)["mode"]) == "Mode"
 
 
 FORMS = {"none": set(), "file": {"file", "channel"}, "labels": {"labels", "value"}}
@@ -78,24 +113,107 @@ def test_a_long_sentence_is_broken_into_lines(extension, scene, picture, panel):
     assert "first warning" in shown and "second warning" in shown
 
 
-def test_the_list_of_layers_is_changed_by_its_buttons(scene, picture):
-    for action, names in [
-        ("add", ["Layer", "all"]),
-        ("down", ["all", "Layer"]),
-        ("down", ["all", "Layer"]),
-        ("up", ["Layer", "all"]),
-        ("remove", ["all"]),
-        ("remove", []),
-        ("remove", []),
-        ("add", ["Background"]),
-    ]:
-        bpy.ops.stillwater.layer(action=action)
-        assert [layer.name for layer in picture.layers] == names, action
-        assert picture.active_layer == 0 or picture.active_layer < len(names)
+def test_several_selected_layers_are_told_and_changed_together(extension, picture, panel):
+    extension.properties.arrange.add_layer(picture, "sky")
+    alone = panel()
+    assert "2 layers are selected" not in alone["texts"] and "stillwater.copy_to_selected" not in alone["operators"]
+    picture.layers[1].selected = True
+    several = panel()
+    assert "2 layers are selected" in several["texts"]
+    assert {"stillwater.show_layers", "stillwater.copy_to_selected"} <= set(several["operators"])
 
 
-def test_a_new_picture_has_a_background(scene):
-    bpy.ops.stillwater.add_picture()
-    assert [layer.name for layer in scene.stillwater.active().layers] == ["Background"]
-    bpy.ops.stillwater.remove_picture()
-    assert scene.stillwater.active() is None and not bpy.ops.stillwater.remove_picture.poll()
+def test_no_layer_is_a_sentence_that_says_what_to_do(picture, panel):
+    picture.layers.clear()
+    assert "Add a layer for each part of the picture that moves" in " ".join(panel()["texts"])
+
+
+def menu(name: str) -> Recorder:
+    drawn = Recorder()
+    getattr(bpy.types, name).draw(SimpleNamespace(layout=drawn), bpy.context)
+    return drawn
+
+
+def test_the_menu_of_new_layers_offers_each_motion_s_presets(picture):
+    offered = menu("STILLWATER_MT_add_layer")
+    assert offered.texts[0] == "Still"
+    assert {"Still Tree", "Tree in a Storm", "Pond", "Lake", "Sea", "Boat", "Ship", "Clouds"} <= set(offered.texts)
+    assert set(offered.operators) == {"stillwater.add_layer"}
+
+
+def test_the_menu_of_layers_holds_what_has_no_button(picture):
+    wanted = {"duplicate_layer", "copy_layers", "paste_layers", "move_layer", "select_layers", "show_layers"}
+    drawn = menu("STILLWATER_MT_layers")
+    assert {f"stillwater.{name}" for name in wanted | {"copy_to_selected"}} == set(drawn.operators)
+    assert menu("STILLWATER_MT_motion").texts == ["Still", "Sway", "Ripple", "Bob", "Drift"]
+
+
+@pytest.mark.parametrize("panel_name, names", [("STILLWATER_PT_motion_presets", ["Lake", "Pond", "Sea"]),
+                                               ("STILLWATER_PT_wind_presets", ["Breeze", "Calm", "Storm", "Wind"])])
+def test_presets_drop_down_with_a_line_to_save_one(picture, panel_name, names):
+    picture.layers[0].motion.type = "ripple"
+    cls = getattr(bpy.types, panel_name)
+    shown = Recorder()
+    part = SimpleNamespace(layout=shown, draw_kind=lambda *args: cls.draw_kind(SimpleNamespace(layout=shown), *args))
+    cls.draw(part, bpy.context)
+    assert [text for text in shown.texts if text] == names and shown.properties == ["preset_name"]
+    assert shown.operators == ["stillwater.apply_preset"] * len(names) + ["stillwater.save_preset"]
+
+
+def test_a_right_click_on_a_layer_s_value_copies_it(extension, scene, picture):
+    extension.properties.arrange.add_layer(picture, "sky")
+    layer = picture.layers[1]
+
+    def offered(pointer, name):
+        drawn = Recorder()
+        context = SimpleNamespace(scene=scene, button_pointer=pointer, button_prop=pointer.bl_rna.properties[name])
+        extension.layers.menus.draw_context_menu(SimpleNamespace(layout=drawn), context)
+        return [(one.path, one.layer) for one in drawn.made]
+
+    assert offered(layer.motion.sway, "amount") == [("motion.sway.amount", 1)]
+    assert offered(layer, "opacity") == [("opacity", 1)] and offered(layer.motion, "type") == [("motion.type", 1)]
+    assert offered(layer, "name") == offered(picture.wind, "speed") == offered(scene.render, "fps") == []
+    drawn = Recorder()
+    extension.layers.menus.draw_context_menu(SimpleNamespace(layout=drawn), SimpleNamespace(scene=scene))
+    assert drawn.operators == []
+
+
+@pytest.fixture
+def opened(scene, tmp_path):
+    scene.view_settings.view_transform = "AgX"
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "lake.png")))
+    return scene.stillwater.active()
+
+
+def test_the_picture_is_shown(opened, panel):
+    shown = panel()
+    assert f"lake.png, {WIDTH} x {HEIGHT} px" in shown["texts"]
+    assert {"stillwater.replace_picture", "stillwater.reload_picture", "stillwater.remove_picture"} <= set(shown["operators"])
+    assert "stillwater.show_picture" not in shown["operators"] and "colour_space" in shown["properties"]
+
+
+def test_a_missing_picture_is_shown_with_what_to_do(opened, panel):
+    opened.missing = True
+    shown = panel()
+    assert "is not there" in " ".join(shown["texts"]) and shown["operators"].count("stillwater.replace_picture") == 2
+
+
+def test_the_view_transform_is_shown_with_a_way_back(scene, opened, panel):
+    assert "View transform Standard: renders equal the picture" in " ".join(panel()["texts"])
+    assert "stillwater.former_view" in panel()["operators"]
+    bpy.ops.stillwater.former_view()
+    assert "View transform AgX: renders differ from the picture's own colors" in " ".join(panel()["texts"])
+    assert "stillwater.standard_view" in panel()["operators"]
+
+
+def test_what_was_deleted_is_offered_again(scene, opened, panel):
+    bpy.data.objects.remove(opened.camera)
+    assert "stillwater.show_picture" in panel()["operators"]
+
+
+def test_a_second_picture_makes_a_list(scene, opened, panel, tmp_path):
+    assert "active_picture" not in panel()["lists"]
+    bpy.ops.stillwater.open_picture(filepath=str(paint(tmp_path / "pond.png")))
+    assert "active_picture" in panel()["lists"]
+    scene.stillwater.active_picture = 0
+    assert "stillwater.show_picture" in panel()["operators"]  # the camera looks at the second

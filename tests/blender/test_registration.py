@@ -5,7 +5,10 @@ import bpy
 import pytest
 from pixels import PACKAGE
 
-CLASSES = (bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.types.UIList)
+CLASSES = (
+    bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.types.UIList, bpy.types.Menu, bpy.types.FileHandler,
+    bpy.types.AddonPreferences,
+)  # fmt: skip
 
 
 def traces():
@@ -14,7 +17,9 @@ def traces():
     classes = {cls.__name__ for cls in ours if cls.is_registered}
     lists = [_list(getattr(bpy.app.handlers, name)) for name in dir(bpy.app.handlers)]
     handlers = [handler for listed in lists for handler in listed if PACKAGE in handler.__module__]
-    menus = [draw for draw in bpy.types.NODE_MT_compositor_node_add_all.draw._draw_funcs if PACKAGE in draw.__module__]
+    kinds = [getattr(bpy.types, name) for name in dir(bpy.types)]
+    added = [draw for kind in kinds for draw in getattr(getattr(kind, "draw", None), "_draw_funcs", [])]
+    menus = [draw for draw in added if PACKAGE in draw.__module__] + bpy.utils.preset_paths("stillwater/sway")
     properties = [cls for cls in (bpy.types.Scene, bpy.types.CompositorNodeTree) if hasattr(cls, "stillwater")]
     return classes, handlers, menus, properties
 
@@ -34,7 +39,7 @@ def enabled():
 def test_it_is_registered_after_its_installation(extension):
     classes, handlers, menus, properties = traces()
     assert {"STILLWATER_OT_bake", "STILLWATER_PG_layer", "STILLWATER_UL_layers", "STILLWATER_PT_view_3d"} <= classes
-    assert len(handlers) == 4 and len(menus) == 1 and len(properties) == 2
+    assert len(handlers) >= 9 and len(menus) >= 7 and len(properties) == 2
     assert extension.engine.problem() == "" and extension.engine.version().count(".") == 2
 
 

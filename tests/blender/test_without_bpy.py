@@ -10,7 +10,9 @@ import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 PLAIN = sorted((ADDON / "recipe").glob("*.py"))
-PLAIN += [ADDON / name for name in ("bake/worker.py", "bake/progress.py", "compositor/frames.py")]
+PLAIN += [ADDON / "bake" / name for name in ("worker.py", "progress.py", "folders.py")]
+PLAIN += [ADDON / name for name in ("compositor/frames.py", "layers/missing.py")]
+WITH_NUMPY = [ADDON / f"strokes/{name}.py" for name in ("control_points", "curves", "lines", "projection", "roles")]
 
 
 def load(path: Path):
@@ -35,6 +37,11 @@ def imported(path: Path) -> set[str]:
 @pytest.mark.parametrize("path", PLAIN, ids=lambda path: f"{path.parent.name}/{path.name}")
 def test_it_imports_python_alone_and_its_own_room(path):
     assert imported(path) <= sys.stdlib_module_names
+
+
+@pytest.mark.parametrize("path", WITH_NUMPY, ids=lambda path: path.name)
+def test_geometry_imports_numpy_besides(path):
+    assert imported(path) <= sys.stdlib_module_names | {"numpy"}
 
 
 def test_the_recipe_s_room_works_where_there_is_no_bpy():

@@ -107,6 +107,23 @@ def test_frames_output_scale_threads(scene, tmp_path, command):
     assert sorted(frames_in(tmp_path / "frames")) == ["frame_0005.exr"]
 
 
+def test_a_cache_elsewhere_is_used_and_kept_within_its_limit(scene, tmp_path, command):
+    def preparations():
+        return {path.parent.name for path in (tmp_path / "kept").glob("*/meta.json")}
+
+    def render(change=lambda recipe: None):
+        done = command("render", scene(change), "--frames", "1", "--cache", tmp_path / "kept", "--cache-limit", "0.001")
+        assert done.returncode == 0, done.stderr
+        return preparations()
+
+    first = render()
+    assert len(first) == 1 and not (tmp_path / ".stillwater-cache").exists()
+    assert render() == first
+    (tmp_path / "kept" / next(iter(first)) / "large.npy").write_bytes(bytes(1_000_000))
+    second = render(lambda recipe: recipe["layers"][2].update(feather=3))
+    assert len(second) == 1 and not second & first
+
+
 @pytest.mark.parametrize(
     "arguments, sentence",
     [
@@ -119,6 +136,8 @@ def test_frames_output_scale_threads(scene, tmp_path, command):
         (["--scale", "big"], "argument --scale: big is not between 0.001 and 16"),
         (["--threads", "-1"], "argument --threads: -1 is not between 0 and 1024"),
         (["--threads", "1025"], "argument --threads: 1025 is not between 0 and 1024"),
+        (["--cache-limit", "0"], "argument --cache-limit: 0 is not between 0.001 and 1000000"),
+        (["--cache-limit", "all"], "argument --cache-limit: all is not between 0.001 and 1000000"),
         (["--progress", "loud"], "argument --progress: invalid choice: 'loud'"),
         (["--movie", "nowhere/film.mp4"], "--movie: nowhere: there is no such folder"),
     ],

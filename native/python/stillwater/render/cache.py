@@ -21,7 +21,7 @@ from .. import _stillwater as engine
 from .lock import Lock
 
 FOLDER = ".stillwater-cache"
-LIMIT = 4 << 30  # bytes
+LIMIT = 4_000_000_000  # bytes
 FRESH = 2.0  # seconds: a file changed so shortly ago may change again without a new time
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe import Document, Recipe
-from .cache import FOLDER, Cache, Prepared
+from .cache import FOLDER, LIMIT, Cache, Prepared
 from .claim import claim_frames
 from .errors import Failed, Refused
 from .events import Done, Event, Frame, Preparing, Started, Warn
@@ -34,6 +34,8 @@ class Order:
     scale: float | None = None  # output pixels for a picture pixel
     movie: Path | None = None
     fresh: bool = False  # render anew what stands already
+    cache: Path | None = None  # folder of the cache; None: beside the recipe
+    cache_limit: int | None = None  # bytes; None: cache.py's
 
 
 class Job:
@@ -49,7 +51,7 @@ class Job:
         self.scale = recipe.output.scale if order.scale is None else order.scale
         self.folder = order.folder or document.locate(recipe.output.folder)
         self.timeline = Timeline(recipe)
-        self.cache = Cache(document.folder / FOLDER)
+        self.cache = Cache(order.cache or document.folder / FOLDER, order.cache_limit or LIMIT)
         self.sources = Sources(document, self.cache)
         self.size = frame_size(self.sources.size, self.scale)
         self.keys = FrameKeys(self.timeline, self.sources.key, self.sources.size, self.scale)

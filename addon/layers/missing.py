@@ -1,0 +1,44 @@
+"""What a layer still misses before it can move, as a sentence that says what to do. Reads, and needs no bpy."""
+
+
+def of(picture, index: int, drawn: set[str]) -> list[str]:
+    """A sentence for each thing that the engine would miss in one layer.
+
+    `drawn`: the numbers of its motion, and of the view, that strokes stand for.
+    """
+    layer = picture.layers[index]
+    return [*_matte(layer, index == len(picture.layers) - 1), *_motion(picture, layer, drawn)]
+
+
+def _matte(layer, last: bool) -> list[str]:
+    matte, fill = layer.matte, layer.fill
+    said = []
+    if matte.form == "none" and not last:
+        said.append("Choose its matte: which part of the picture it is")
+    elif matte.form in ("file", "labels") and not getattr(matte, matte.form):
+        said.append("Choose the file of its matte")
+    if fill.method == "file" and not fill.file:
+        said.append("Choose the file that is painted behind it")
+    return said
+
+
+def _motion(picture, layer, drawn: set[str]) -> list[str]:
+    motion = layer.motion
+    match motion.type:
+        case "sway" if tuple(motion.sway.armature_root) == tuple(motion.sway.armature_tip) and "armature_tip" not in drawn:
+            return ["Draw its sway line, from where it is held to its tip"]
+        case "ripple" if not picture.view.use_horizon and "use_horizon" not in drawn:
+            return ["Draw the horizon, or place it in View"]
+        case "bob":
+            return _bob(picture, motion.bob, drawn)
+    return []
+
+
+def _bob(picture, bob, drawn: set[str]) -> list[str]:
+    said = []
+    water = {layer.name for layer in picture.layers if layer.motion.type == "ripple"}
+    if bob.water not in water:
+        said.append("Choose the water it floats on" if water else "Add a layer with Ripple: the water it floats on")
+    if len({tuple(point.place) for point in bob.waterline}) < 2 and "waterline" not in drawn:
+        said.append("Draw its waterline, along the hull where it meets the water")
+    return said

@@ -1,0 +1,142 @@
+"""Layers come, go and change places. All selected ones at once; keys and drivers go with them."""
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+
+from .. import strokes
+from ..properties import arrange
+from . import preset_files
+from .selection import MOTIONS, OfLayers, OfPicture, chosen
+
+
+class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
+    """Add a layer in front of the active one"""
+
+    bl_idname = "stillwater.add_layer"
+    bl_label = "Add Layer"
+
+    motion: EnumProperty(name="Motion", description="What it does", items=MOTIONS)
+    preset: StringProperty(
+        name="Preset", description="File of a preset of this motion; empty: the motion as it is", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def description(cls, context, properties):
+        return preset_files.description_of(properties.preset) or "Add a layer in front of the active one"
+
+    def execute(self, context):
+        picture = context.scene.stillwater.active()
+        count = len(picture.layers)
+        try:
+            preset = preset_files.read(self.preset) if self.preset else None
+        except (ValueError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        place = min(picture.active_layer, count)
+        layer = arrange.add_layer(picture, preset.name if preset else self._name(picture))
+        layer.motion.type = preset.kind if preset else self.motion
+        if preset:
+            preset_files.apply(layer.motion.numbers(), preset)
+        arrange.move_layer(picture, count, place)
+        picture.active_layer = place
+        return {"FINISHED"}
+
+    def _name(self, picture) -> str:
+        if self.motion == "still":
+            return "Layer" if len(picture.layers) else "Background"
+        return {"sway": "Tree", "ripple": "Water", "bob": "Boat", "drift": "Clouds"}[self.motion]
+
+
+class STILLWATER_OT_remove_layer(OfLayers, bpy.types.Operator):
+    """Remove the selected layers, their strokes, keys and drivers"""
+
+    bl_idname = "stillwater.remove_layer"
+    bl_label = "Remove Layer"
+
+    def execute(self, context):
+        picture = context.scene.stillwater.active()
+        gone = chosen(picture)
+        after = picture.active_layer - sum(index < picture.active_layer for index in gone)
+        for index in gone:
+            strokes.remove_roles(picture, picture.layers[index].id)
+        arrange.remove_layers(picture, gone)
+        picture.active_layer = max(0, min(after, len(picture.layers) - 1))
+        return {"FINISHED"}
+
+
+class STILLWATER_OT_duplicate_layer(OfLayers, bpy.types.Operator):
+    """Duplicate the selected layers, with their strokes, keys and drivers; each copy stands in front of its own"""
+
+    bl_idname = "stillwater.duplicate_layer"
+    bl_label = "Duplicate Layer"
+
+    def execute(self, context):
+        picture = context.scene.stillwater.active()
+        originals = chosen(picture)
+        known = {layer.id for layer in picture.layers}
+        active = picture.active_layer + originals.index(picture.active_layer)
+        for original, copy in arrange.duplicate_layers(picture, originals).items():
+            strokes.copy_roles(picture, original, copy)
+        for layer in picture.layers:
+            layer.selected = layer.id not in known
+        picture.active_layer = active
+        return {"FINISHED"}
+
+
+class STILLWATER_OT_move_layer(OfLayers, bpy.types.Operator):
+    """Move the selected layers towards the viewer or away"""
+
+    bl_idname = "stillwater.move_layer"
+    bl_label = "Move Layer"
+
+    direction: EnumProperty(
+        name="Direction",
+        items=[
+            ("UP", "Forward", "Before the next layer"),
+            ("DOWN", "Back", "Behind the next layer"),
+            ("TOP", "To the Front", "Before all other layers"),
+            ("BOTTOM", "To the Back", "Behind all other layers"),
+        ],
+    )
+
+    @classmethod
+    def description(cls, context, properties):
+        said = {"UP": "forward", "DOWN": "back", "TOP": "before all others", "BOTTOM": "behind all others"}
+        return f"Move the selected layers {said[properties.direction]}; the list's top is the front"
+
+    def execute(self, context):
+        picture = context.scene.stillwater.active()
+        order = reordered(len(picture.layers), chosen(picture), self.direction)
+        if order == list(range(len(order))):
+            return {"CANCELLED"}
+        active = picture.active_layer
+        arrange.reorder_layers(picture, order)
+        picture.active_layer = order.index(active)
+        return {"FINISHED"}
+
+
+def reordered(count: int, moved: list[int], direction: str) -> list[int]:
+    """Where `moved` of `count` layers go: the old index of the layer in each new place."""
+    order, rest = list(range(count)), [i for i in range(count) if i not in moved]
+    match direction:
+        case "TOP":
+            return [*moved, *rest]
+        case "BOTTOM":
+            return [*rest, *moved]
+        case "UP":
+            for place in range(1, count):
+                if order[place] in moved and order[place - 1] not in moved:
+                    order[place - 1 : place + 1] = order[place], order[place - 1]
+        case "DOWN":
+            for place in range(count - 2, -1, -1):
+                if order[place] in moved and order[place + 1] not in moved:
+                    order[place : place + 2] = order[place + 1], order[place]
+    return order
+
+
+CLASSES = [
+    STILLWATER_OT_add_layer,
+    STILLWATER_OT_remove_layer,
+    STILLWATER_OT_duplicate_layer,
+    STILLWATER_OT_move_layer,
+]

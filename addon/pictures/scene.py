@@ -1,0 +1,139 @@
+"""How the scene is set for a picture, and how it was set before: camera, render size, view transform, compositor."""
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..compositor import tree as node
+
+STANDARD = {
+    "view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0,
+    "use_curve_mapping": False, "use_white_balance": False,
+}  # fmt: skip
+RATES = {"24": (24, 1.0), "25": (25, 1.0), "30": (30, 1.0), "23.98": (24, 1.001), "29.97": (30, 1.001), "50": (50, 1.0), "60": (60, 1.0)}
+
+
+def keep(scene) -> None:
+    """Remembers how the scene is set, once: before its first picture."""
+    former, render = scene.stillwater.former, scene.render
+    if former.kept:
+        return
+    former.kept, former.camera = True, scene.camera
+    former.resolution = render.resolution_x, render.resolution_y
+    former.resolution_percentage = render.resolution_percentage
+    former.pixel_aspect = render.pixel_aspect_x, render.pixel_aspect_y
+    former.fps, former.fps_base = render.fps, render.fps_base
+    keep_view(scene)
+
+
+def keep_view(scene) -> None:
+    former = scene.stillwater.former
+    former.display_device = scene.display_settings.display_device
+    for name in STANDARD:
+        setattr(former, name, getattr(scene.view_settings, name))
+
+
+def is_standard(scene) -> bool:
+    """Whether renders show a picture's colours as they are."""
+    settings, device = scene.view_settings, scene.display_settings.display_device
+    return device == "sRGB" and all(getattr(settings, name) == value for name, value in STANDARD.items())
+
+
+def can_go_back(scene) -> bool:
+    """Whether there was another view transform before."""
+    former = scene.stillwater.former
+    before = {name: getattr(former, name) for name in STANDARD}
+    return bool(former.view_transform) and (before != STANDARD or former.display_device != "sRGB") and is_standard(scene)
+
+
+def use_standard(scene) -> None:
+    """The view transform that changes no colour; the one before it is remembered. Throws ValueError."""
+    if is_standard(scene):
+        return
+    keep_view(scene)
+    try:
+        scene.display_settings.display_device = "sRGB"
+        for name, value in STANDARD.items():
+            setattr(scene.view_settings, name, value)
+    except TypeError:
+        back_to_former_view(scene)
+        sentence = rpt_("This color configuration has no view transform Standard on sRGB: colors may differ")
+        raise ValueError(sentence) from None
+
+
+def back_to_former_view(scene) -> None:
+    """The view transform from before."""
+    former = scene.stillwater.former
+    scene.display_settings.display_device = former.display_device
+    for name in STANDARD:
+        setattr(scene.view_settings, name, getattr(former, name))
+
+
+def use_rate(scene, rate: str) -> None:
+    """One of RATES; any other name leaves the scene's."""
+    if rate in RATES:
+        scene.render.fps, scene.render.fps_base = RATES[rate]
+
+
+def use_size(scene, picture) -> None:
+    """Frames as large as the picture's."""
+    render = scene.render
+    render.resolution_x, render.resolution_y = frame_size(picture)
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = render.pixel_aspect_y = 1
+
+
+def frame_size(picture, size=None) -> tuple[int, int]:
+    """Width and height of a frame, px; of a picture of another `size` where one is given. Rounded as the engine does."""
+    sides = size or picture.picture_size
+    return tuple(max(1, int(side * picture.output.scale + 0.5)) for side in sides)
+
+
+def show(scene, picture) -> bool:
+    """Makes the picture what the scene's camera sees and what renders show, at its size.
+
+    False where the artist's own compositor stands at the output: then the node is only put beside it.
+    """
+    keep(scene)
+    use_size(scene, picture)
+    scene.camera = picture.camera
+    tree = node.ensure(scene, picture)
+    node.show(tree)
+    if node.is_free(scene):
+        node.wire(scene, tree)
+        return True
+    if not node.nodes_of(scene, picture.id):
+        node.add_node(scene, tree)
+    return False
+
+
+def look(scene) -> None:
+    """Makes every 3D viewport that shows the scene look through its camera, at the whole picture."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas if window.scene == scene else ():
+            if area.type == "VIEW_3D":
+                _look_through(window, area)
+
+
+def _look_through(window, area) -> None:
+    view = area.spaces.active.region_3d
+    view.view_perspective, view.view_camera_offset = "CAMERA", (0, 0)
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        if not bpy.app.background and bpy.ops.view3d.view_center_camera.poll():
+            bpy.ops.view3d.view_center_camera()
+
+
+def go_back(scene, camera_gone: bool, size: tuple[int, int]) -> None:
+    """After the last picture was removed: what is still as it was set for it becomes as it was before."""
+    former, render = scene.stillwater.former, scene.render
+    if not former.kept:
+        return
+    if camera_gone and former.camera is not None and former.camera.name in scene.objects:
+        scene.camera = former.camera
+    if (render.resolution_x, render.resolution_y) == size:
+        render.resolution_x, render.resolution_y = former.resolution
+        render.resolution_percentage = former.resolution_percentage
+        render.pixel_aspect_x, render.pixel_aspect_y = former.pixel_aspect
+    if is_standard(scene):
+        back_to_former_view(scene)
+    former.kept, former.camera = False, None

@@ -1,0 +1,71 @@
+"""Grease-pencil strokes say where: from Blender's draw mode to the recipe.
+
+    curves, control_points   what a drawing's control points mean
+    projection, read         where strokes lie in the picture
+    lines, roles             what they say there, by their role
+    gp_layers                which grease-pencil layer holds which layer's strokes of which role
+    draw_mode, operators     drawing and deleting them
+    change                   giving them another role
+    panel                    its buttons, and the tool in the toolbar
+
+Others use drawn(), replaced(), copy_roles() and remove_roles().
+"""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..properties import names
+from . import draw_mode, gp_layers, operators, panel, read, roles
+
+CLASSES = [*operators.CLASSES, *panel.CLASSES]
+
+copy_roles = gp_layers.copy  # (picture, from_id, to_id): a duplicated layer gets strokes of its own
+remove_roles = gp_layers.remove  # (picture, layer_id): before a layer goes
+
+
+def drawn(scene, picture):
+    """What the recipe asks (recipe/write.py): a layer's id, or "", and a role's key -> its strokes' geometry, or None.
+
+    Asking throws ValueError with a sentence where strokes can't be read.
+    """
+
+    def geometry(layer_id: str, key: str):
+        role = roles.by_key(key)
+        return role.geometry(read.strokes(scene, picture, layer_id, role))
+
+    return geometry
+
+
+def replaced(scene, picture, layer=None) -> set[str]:
+    """The names of the numbers that strokes stand for: of the picture's view, and of the layer's motion."""
+    owned = [("", role) for role in roles.of_motion("")]
+    owned += [(layer.id, role) for role in roles.of_motion(layer.motion.type)] if layer else []
+    there = [role for layer_id, role in owned if read.is_drawn(scene, picture, layer_id, role)]
+    return {name for role in there for name in role.replaces}
+
+
+@persistent
+def _look_after(*_):
+    draw_mode.look_after()
+
+
+HANDLERS = ["load_post", "undo_post", "redo_post"]
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.utils.register_tool(panel.STILLWATER_TL_stroke, after={"builtin.brush"})
+    names.renamed.append(gp_layers.follow_names)
+    for name in HANDLERS:
+        getattr(bpy.app.handlers, name).append(_look_after)
+
+
+def unregister():
+    for name in HANDLERS:
+        getattr(bpy.app.handlers, name).remove(_look_after)
+    names.renamed.remove(gp_layers.follow_names)
+    draw_mode.stop()
+    bpy.utils.unregister_tool(panel.STILLWATER_TL_stroke)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,73 @@
+"""What strokes say, in the form in which the recipe has it. Needs numpy, no bpy."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+DIGITS = 3  # written of a pixel
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """One stroke as it lies in the picture, a polyline."""
+
+    points: np.ndarray  # (n, 2), px from the picture's top left corner, y down
+    widths: np.ndarray  # (n,), px: where the pen was pressed harder it is wider
+    frame: int  # of the key that holds its drawing
+
+    @property
+    def length(self) -> float:
+        """px"""
+        return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
+
+
+def ends(strokes: list[Stroke]) -> list | None:
+    """[first, last] point of the last line drawn; None where there is no line."""
+    line = _last_line(strokes)
+    return line and _written(line.points[[0, -1]])
+
+
+def polyline(strokes: list[Stroke]) -> list | None:
+    """All points of the last line drawn; None where there is no line."""
+    line = _last_line(strokes)
+    return line and _written(line.points)
+
+
+def straight_line(strokes: list[Stroke]) -> list | None:
+    """[left, right] end of the straight line that is nearest to the last line drawn; None where there is no line.
+
+    Of least squared distances, summed along the stroke: where the hand went slowly, and left more points, does not
+    weigh more. It reaches as far as the stroke does.
+    """
+    line = _last_line(strokes)
+    if line is None:
+        return None
+    steps = np.diff(line.points, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
+    middles = (line.points[1:] + line.points[:-1]) / 2
+    middle = lengths @ middles / lengths.sum()
+    offsets = middles - middle
+    moments = (offsets.T * lengths) @ offsets + (steps.T * lengths) @ steps / 12
+    direction = np.linalg.eigh(moments)[1][:, 1]
+    direction = direction if direction[0] >= 0 else -direction
+    along = (line.points - middle) @ direction
+    return _written(middle + np.outer([along.min(), along.max()], direction))
+
+
+def with_pressure(stroke: Stroke) -> dict:
+    """The recipe's stroke: its width where it is widest, and a pressure for each point where it varies."""
+    width = float(stroke.widths.max())
+    points = _written(stroke.points)
+    if width > 0 and np.ptp(stroke.widths) > 1e-4 * width:
+        pressures = np.round(stroke.widths / width, DIGITS).tolist()
+        points = [[*point, pressure] for point, pressure in zip(points, pressures, strict=True)]
+    return {"points": points, "width": round(width, DIGITS)}
+
+
+def _last_line(strokes: list[Stroke]) -> Stroke | None:
+    """The last stroke that leads anywhere: a dab is not a line."""
+    return next((stroke for stroke in reversed(strokes) if stroke.length > 0), None)
+
+
+def _written(points: np.ndarray) -> list:
+    return (np.round(points, DIGITS) + 0.0).tolist()  # + 0: no -0

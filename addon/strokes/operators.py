@@ -1,0 +1,139 @@
+"""Draw strokes of a role, give strokes another role, delete them."""
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+
+from . import change, draw_mode, gp_layers, roles
+
+ITEMS = [(role.key, role.name, role.hint, role.icon, role.number) for role in roles.ROLES]
+
+
+class OfRole:
+    """An operator about one role of one layer."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    role: EnumProperty(name="Role", description="What the strokes say", items=ITEMS, options={"SKIP_SAVE"})
+    layer: StringProperty(name="Layer", description="Its name; empty = the active one", options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        picture = context.scene.stillwater.active()
+        if picture is None:
+            cls.poll_message_set("The scene has no Stillwater picture yet")
+        elif picture.plane is None:
+            cls.poll_message_set("The picture has no plane in the scene; open its picture again")
+        else:
+            return True
+        return False
+
+    def execute(self, context):
+        picture, role = context.scene.stillwater.active(), roles.by_key(self.role)
+        try:
+            return self.do(context, picture, self.layer_of(picture, role), role)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    def layer_of(self, picture, role: roles.Role):
+        """The layer that is meant; None for a role of the picture itself. Throws ValueError where none has it."""
+        if not role.motion:
+            return None
+        index = picture.layers.find(self.layer) if self.layer else picture.active_layer
+        if not 0 <= index < len(picture.layers):
+            raise ValueError(f"{self.layer or 'Active layer'}: {picture.name} has no such layer")
+        layer = picture.layers[index]
+        if layer.motion.type != role.motion:
+            raise ValueError(f"{layer.name}: only a layer with the motion {role.motion.title()} has a {role.name}")
+        return layer
+
+
+class STILLWATER_OT_draw_stroke(OfRole, bpy.types.Operator):
+    """Draw on the picture; what a stroke says stands in the status bar"""
+
+    bl_idname = "stillwater.draw_stroke"
+    bl_label = "Draw Stroke"
+    bl_property = "role"
+
+    @classmethod
+    def description(cls, context, properties):
+        return roles.by_key(properties.role).hint
+
+    def invoke(self, context, event):
+        if self.properties.is_property_set("role"):
+            return self.execute(context)
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def do(self, context, picture, layer, role):
+        draw_mode.enter(context, picture, layer, role)
+        return {"FINISHED"}
+
+
+class STILLWATER_OT_stop_drawing(bpy.types.Operator):
+    """Leave draw mode; of a role that takes one stroke the last drawn stays"""
+
+    bl_idname = "stillwater.stop_drawing"
+    bl_label = "Done"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if not context.scene.stillwater.drawing.role:
+            cls.poll_message_set("No Stillwater stroke is being drawn")
+            return False
+        return True
+
+    def execute(self, context):
+        draw_mode.finish(context.scene)
+        return {"FINISHED"}
+
+
+class STILLWATER_OT_change_role(OfRole, bpy.types.Operator):
+    """Give the selected strokes another role or layer"""
+
+    bl_idname = "stillwater.change_role"
+    bl_label = "Change Role"
+    bl_property = "role"
+
+    @classmethod
+    def poll(cls, context):
+        picture = context.scene.stillwater.active()
+        if not super().poll(context):
+            return False
+        if context.mode != "EDIT_GREASE_PENCIL" or context.object != picture.strokes:
+            cls.poll_message_set("Select strokes of the picture in edit mode first")
+            return False
+        return True
+
+    def do(self, context, picture, layer, role):
+        part = gp_layers.ensure(picture, layer.id if layer else "", role)
+        if part.hide or part.lock:
+            raise ValueError(f"{part.name}: is hidden or locked; show and unlock it first")
+        return change.move_selected(context, picture, part, role)
+
+
+class STILLWATER_OT_delete_strokes(OfRole, bpy.types.Operator):
+    """Delete all strokes of this role"""
+
+    bl_idname = "stillwater.delete_strokes"
+    bl_label = "Delete Strokes"
+
+    def do(self, context, picture, layer, role):
+        drawings = [
+            key.drawing
+            for part in gp_layers.of(picture, layer.id if layer else "", role)
+            for key in part.frames
+            if len(key.drawing.curve_offsets) > 1
+        ]
+        for drawing in drawings:
+            drawing.remove_strokes()
+        return {"FINISHED"} if drawings else {"CANCELLED"}
+
+
+CLASSES = [
+    STILLWATER_OT_draw_stroke,
+    STILLWATER_OT_stop_drawing,
+    STILLWATER_OT_change_role,
+    STILLWATER_OT_delete_strokes,
+]

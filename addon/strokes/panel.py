@@ -1,0 +1,52 @@
+"""The roles that the active layer's and the picture's strokes have: drawn or not, with a button each."""
+
+import bpy
+
+from ..ui import sidebar
+from . import draw_mode, read, roles
+
+
+class _Strokes(sidebar.OfPicture):
+    bl_label = "Strokes"
+    bl_order = 2
+    bl_options = set()
+
+    def draw(self, context):
+        layout, picture = self.layout, context.scene.stillwater.active()
+        if context.scene.stillwater.drawing.role:
+            layout.operator("stillwater.stop_drawing", icon="CHECKMARK")
+            sidebar.say(context, layout, draw_mode.hint(context.scene), "INFO")
+        layer = picture.layers[picture.active_layer] if picture.active_layer < len(picture.layers) else None
+        column = layout.column(align=True)
+        for role in [*(roles.of_motion(layer.motion.type) if layer else ()), *roles.of_motion("")]:
+            _draw_role(context, column, picture, layer if role.motion else None, role)
+        if context.mode == "EDIT_GREASE_PENCIL":
+            layout.operator_menu_enum("stillwater.change_role", "role")
+
+
+def _draw_role(context, layout, picture, layer, role: roles.Role) -> None:
+    drawn = read.is_drawn(context.scene, picture, layer.id if layer else "", role)
+    row = layout.row(align=True)
+    row.operator("stillwater.draw_stroke", text=role.name, icon="GREASEPENCIL").role = role.key
+    row.label(text="Drawn" if drawn else "", icon="CHECKMARK" if drawn else "BLANK1")
+    if drawn:
+        row.operator("stillwater.delete_strokes", text="", icon="X").role = role.key
+
+
+class STILLWATER_TL_stroke(bpy.types.WorkSpaceTool):
+    bl_space_type = "VIEW_3D"
+    bl_context_mode = draw_mode.MODE
+    bl_idname = draw_mode.TOOL
+    bl_label = "Stillwater Stroke"
+    bl_description = "Draw with Blender's brush on the picture. The role's button in the sidebar says what a stroke is"
+    bl_icon = "brush.generic"
+    bl_options = {"USE_BRUSHES"}
+
+    def draw_settings(context, layout, tool):
+        hint = draw_mode.hint(context.scene)
+        layout.label(text=hint or "Choose what to draw in the sidebar, tab Stillwater", icon="INFO")
+        if hint:
+            layout.operator("stillwater.stop_drawing", icon="CHECKMARK")
+
+
+CLASSES = sidebar.in_viewport("strokes", _Strokes)

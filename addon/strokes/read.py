@@ -1,0 +1,98 @@
+"""The strokes of a picture as they lie in it: through grease-pencil layer, object, parents and camera.
+
+A hidden object or grease-pencil layer does not count, nor do the object's modifiers. A role whose strokes hold from
+their key on reads every key; any other reads the drawing that the scene's first frame shows.
+"""
+
+import bpy
+import numpy as np
+
+from ..properties import plane
+from . import control_points, gp_layers, projection
+from .curves import evaluate
+from .lines import Stroke
+from .roles import Role
+
+TOLERANCE = 0.01  # px that a polyline may leave its curve by where that saves points
+
+
+def strokes(scene, picture, layer_id: str, role: Role) -> list[Stroke]:
+    """All strokes of one role, in the order in which they lie upon each other.
+
+    Throws ValueError with a sentence where the picture has no plane, or a stroke is out of its camera's sight.
+    """
+    found = []
+    for part, keys in _shown(scene, picture, layer_id, role):
+        seen = _projection(picture)
+        try:
+            for key in keys:
+                found += _in_drawing(picture.strokes, part, key, seen)
+        except ValueError as error:
+            raise ValueError(f"{part.name}: a stroke {error}") from error
+    return found
+
+
+def is_drawn(scene, picture, layer_id: str, role: Role) -> bool:
+    """Whether there is a line of this role; so cheap that panels may ask."""
+    drawings = [key.drawing for _, keys in _shown(scene, picture, layer_id, role) for key in keys]
+    return any(np.any(np.diff(control_points.offsets_of(drawing)) > 1) for drawing in drawings)
+
+
+def _shown(scene, picture, layer_id: str, role: Role):
+    """The grease-pencil layers of a role that are visible, each with the keys that count."""
+    parts = gp_layers.of(picture, layer_id, role)
+    view_layer = bpy.context.view_layer if bpy.context.scene == scene else scene.view_layers[0]
+    if parts and picture.strokes.visible_get(view_layer=view_layer):
+        for part in parts:
+            keys = sorted(part.frames, key=lambda frame: frame.frame_number)
+            if keys and _is_visible(part):
+                yield part, keys if role.keyed else [part.get_frame_at(scene.frame_start) or keys[0]]
+
+
+def _is_visible(part) -> bool:
+    """A grease-pencil layer is hidden with any group around it."""
+    while part is not None and not part.hide:
+        part = part.parent_group
+    return part is None
+
+
+def _projection(picture) -> projection.Projection:
+    pixels = np.array(plane.pixels_to_world(picture))
+    try:
+        return projection.onto_picture(pixels, _eye(picture.camera))
+    except projection.OutOfSight as error:
+        raise ValueError(f"{picture.name}: {error}; turn one of them") from error
+
+
+def _eye(camera) -> np.ndarray | None:
+    if camera is None or camera.type != "CAMERA":
+        return None
+    parallel = camera.data.type == "ORTHO"
+    return np.append(np.array(camera.matrix_world)[:3, 2 if parallel else 3], 0.0 if parallel else 1.0)
+
+
+def _in_drawing(holder, part, key, seen: projection.Projection) -> list[Stroke]:
+    to_world = np.array(layer_to_world(holder, part))
+
+    def place(points):
+        return seen.place(points[:, :3] @ to_world[:3, :3].T + to_world[:3, 3])
+
+    curves = control_points.of(key.drawing)
+    finest = place(curves.points)[1].max(initial=0) * np.linalg.norm(to_world[:3, :3], 2)  # px for a unit of its space
+    offsets, points = evaluate(curves, TOLERANCE / finest if finest else 0)
+    pixels, scale = place(points)
+    # Blender scales what it draws by the object, not by the layer.
+    size = np.linalg.norm(np.array(holder.matrix_world)[:3, :3].sum(axis=1)) / np.sqrt(3)
+    widths = np.maximum(2 * (points[:, 3] + part.radius_offset) * size * scale, 0)
+    ends = zip(offsets[:-1], offsets[1:], strict=True)
+    return [Stroke(pixels[a:b], widths[a:b], key.frame_number) for a, b in ends if b > a]
+
+
+def layer_to_world(holder, part):
+    """4x4: from a grease-pencil layer's own space to the world. A bone is a parent by its posed head."""
+    parent = part.parent
+    if parent is None:
+        return holder.matrix_world @ part.matrix_local
+    bone = parent.pose.bones.get(part.parent_bone) if parent.type == "ARMATURE" and part.parent_bone else None
+    space = parent.matrix_world @ bone.matrix if bone else parent.matrix_world
+    return space @ part.matrix_parent_inverse @ part.matrix_local

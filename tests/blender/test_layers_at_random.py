@@ -1,0 +1,69 @@
+"""Fifty sequences of what can be done to layers, seeded: whatever happens, what is said stays right and can be undone."""
+
+import random
+
+import bpy
+import pytest
+from layered import fill, key, keyed, now, said
+
+LAYERS = "stillwater.pictures[0].layers"
+STEPS = 9  # of 32 that Blender can undo
+
+
+def steps(dice: random.Random) -> list[tuple]:
+    """Operators with their options, none of which depends on what is there."""
+    some = [
+        ("add_layer", {"motion": dice.choice(["still", "sway", "ripple", "bob", "drift"])}),
+        ("remove_layer", {}),
+        ("duplicate_layer", {}),
+        ("move_layer", {"direction": dice.choice(["UP", "DOWN", "TOP", "BOTTOM"])}),
+        ("select_layers", {"action": dice.choice(["SELECT", "DESELECT", "INVERT", "MOTION"])}),
+        ("show_layers", {"visible": dice.choice([True, False])}),
+        ("set_motion", {"type": dice.choice(["sway", "bob"])}),
+        ("copy_to_selected", {"path": dice.choice(["opacity", "motion", "motion.bob.amount"])}),
+        ("copy_layers", {}),
+        ("paste_layers", {}),
+    ]
+    return dice.sample(some, k=STEPS)
+
+
+def check(extension) -> None:
+    """Ids and names are unique, the active layer exists, every curve moves a layer that is there."""
+    picture = now()
+    assert len({layer.id for layer in picture.layers}) == len({layer.name for layer in picture.layers}) == len(picture.layers)
+    assert picture.active_layer < max(1, len(picture.layers))
+    drivers = bpy.context.scene.animation_data.drivers
+    for curve in [*keyed(extension), *drivers]:
+        bpy.context.scene.path_resolve(curve.data_path)
+    for curve in drivers:
+        read = curve.driver.variables[0].targets[0].data_path
+        assert read == "" or read.endswith(".opacity") and bpy.context.scene.path_resolve(read) is not None
+
+
+@pytest.mark.parametrize("seed", range(50))
+def test_any_sequence_can_be_undone_and_done_again(extension, scene, picture, seed):
+    dice = random.Random(seed)
+    fill(extension, picture, "a", "b", "c", "d")
+    picture.layers[3].motion.type, picture.layers[1].motion.type = "ripple", "bob"
+    picture.layers[1].motion.bob.water, picture.layers[2].follows.layer = "d", "b"
+    key(extension, f"{LAYERS}[0].opacity", (1, 0.1), (4, 0.4))
+    variable = scene.driver_add(f"{LAYERS}[1].motion.bob.amount").driver.variables.new()
+    variable.targets[0].id_type, variable.targets[0].id = "SCENE", scene
+    variable.targets[0].data_path = f"{LAYERS}[0].opacity"
+    bpy.ops.stillwater.copy_layers()
+    picture.active_layer = dice.randrange(4)
+    bpy.ops.ed.undo_push(message="start")
+    seen = [said(extension)]
+    for operator, options in steps(dice):
+        call = getattr(bpy.ops.stillwater, operator)
+        if not call.poll() or call("EXEC_DEFAULT", True, **options) != {"FINISHED"} or operator == "copy_layers":
+            continue  # these push no step
+        check(extension)
+        seen.append(said(extension))
+    for before in reversed(seen[:-1]):
+        bpy.ops.ed.undo()
+        assert said(extension) == before
+    for after in seen[1:]:
+        bpy.ops.ed.redo()
+        assert said(extension) == after
+    check(extension)
