@@ -7,6 +7,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 from .. import engine
@@ -16,8 +17,9 @@ from . import server
 class Stage:
     """Throws nothing: `problem` says what keeps it from showing frames."""
 
-    def __init__(self, identifier: str):
-        self.identifier = identifier
+    def __init__(self, identifier: str, changed: Callable[[], None]):
+        """`changed` is called when the server has answered."""
+        self.identifier, self._changed = identifier, changed
         self.problem = ""
         self.share: float | None = None  # of a preparation that runs
         self.rests = False  # nothing of the picture moves
@@ -102,6 +104,7 @@ class Stage:
                 self._take()
             case {"event": "error", "sentence": str() as sentence}:
                 self._give_up(named(sentence, self.recipe))
+        self._changed()
 
 
 def named(sentence: str, recipe: dict) -> str:
