@@ -30,7 +30,8 @@ def scene(shown, refresh: bool = True) -> None:
         try:
             _show(shown, picture, _stages[key], refresh)
         except Exception as error:  # noqa: BLE001  a handler that raises would fill the console at every frame
-            _stages[key].problem = f"{type(error).__name__}: {error}"
+            known = isinstance(error, ValueError | OSError)
+            _stages[key].problem = str(error) if known else f"{type(error).__name__}: {error}"
             _clear(picture, _stages[key])
     _redraw()
 

@@ -65,7 +65,7 @@ class Stage:
             if self._live is None:
                 self._live = engine.live()
             ready = self._live.take(self.recipe, self._folder, self._longest)
-            self.problem, self.taken = "", self.taken + 1
+            self.problem, self.taken = "", self.taken + ready
         except (ValueError, OSError) as error:
             server.cancel(self._request)
             self._asked, self.share, self.problem = "", None, named(str(error), self.recipe)
@@ -83,6 +83,7 @@ class Stage:
             return
         if wanted == self._asked:
             return
+        server.cancel(self._request)
         self._asked, self.share = wanted, 0.0
         try:
             self._request = server.prepare(self.identifier, self.recipe, self._folder, self._longest, self._told)
