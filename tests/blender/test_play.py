@@ -66,10 +66,10 @@ def shown(extension, scene, live):
     return live
 
 
-def test_what_was_prepared_is_shown_without_another_frame(extension, scene, live):
+def test_what_was_prepared_is_shown_at_once(extension, scene, live):
     scene.frame_set(6)
+    assert shows_original(live)
     stage.wait(extension)
-    extension.play.show.scene(scene)
     assert not shows_original(live)
 
 
