@@ -22,7 +22,7 @@ def remove(scene, index: int) -> None:
     made = _Made(scene, picture)
     if picture.tree is not None:
         job.end(picture.tree)
-    size, camera_gone = settings.frame_size(picture), scene.camera is None or scene.camera == picture.camera
+    size, camera_gone = picture.frame_size(), scene.camera is None or scene.camera == picture.camera
     arrange.remove_picture(scene, index)
     made.remove()
     versions.drop_compositor(scene)
@@ -158,10 +158,10 @@ class STILLWATER_OT_remove_picture(bpy.types.Operator):
         """Nothing to adjust afterwards: files are not brought back by unticking a box."""
 
     def execute(self, context):
-        settings_of = context.scene.stillwater
-        picture = settings_of.active()
+        here = context.scene.stillwater
+        picture = here.active()
         name, files = picture.name, places.files_of(picture)
-        remove(context.scene, settings_of.active_picture)
+        remove(context.scene, here.active_picture)
         context.view_layer.update()
         if not files:
             return {"FINISHED"}

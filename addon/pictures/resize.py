@@ -19,7 +19,7 @@ def resize(scene, picture, new: tuple[int, int]) -> bool:
     if old == new or 0 in old:
         return False
     render = scene.render
-    if (render.resolution_x, render.resolution_y) == settings.frame_size(picture, old):
+    if (render.resolution_x, render.resolution_y) == picture.frame_size(old):
         settings.use_size(scene, picture)
     place.stretch_strokes(picture, old)
     factors = new[0] / old[0], new[1] / old[1]

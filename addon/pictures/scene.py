@@ -77,15 +77,9 @@ def use_rate(scene, rate: str) -> None:
 def use_size(scene, picture) -> None:
     """Frames as large as the picture's."""
     render = scene.render
-    render.resolution_x, render.resolution_y = frame_size(picture)
+    render.resolution_x, render.resolution_y = picture.frame_size()
     render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1
-
-
-def frame_size(picture, size=None) -> tuple[int, int]:
-    """Width and height of a frame, px; of a picture of another `size` where one is given. Rounded as the engine does."""
-    sides = size or picture.picture_size
-    return tuple(max(1, int(side * picture.output.scale + 0.5)) for side in sides)
 
 
 def show(scene, picture) -> bool:

@@ -59,6 +59,17 @@ class STILLWATER_PG_view(bpy.types.PropertyGroup):
     )
 
 
+def _follow_scale(output, context) -> None:
+    """Where the scene renders its camera's picture at the picture's proportions, frames and renders stay as large."""
+    scene = output.id_data
+    picture = scene.path_resolve(output.path_from_id().rpartition(".")[0])
+    render, (width, height) = scene.render, picture.picture_size
+    if picture.camera is None or scene.camera != picture.camera or not width:
+        return
+    if abs(render.resolution_x * height - render.resolution_y * width) <= max(width, height):
+        render.resolution_x, render.resolution_y = picture.frame_size()
+
+
 class STILLWATER_PG_output(bpy.types.PropertyGroup):
     """Where frames go and how they are written."""
 
@@ -79,7 +90,7 @@ class STILLWATER_PG_output(bpy.types.PropertyGroup):
     layers: BoolProperty(name="Layers", description="Each layer as its own EXR layer beside the whole", options=set())
     scale: FloatProperty(
         name="Scale", description="Output pixels for a picture pixel",
-        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(),
+        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(), update=_follow_scale,
     )
 
 
@@ -117,6 +128,10 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     missing: BoolProperty(options={"HIDDEN"})  # the file was not found when it was last looked for
     picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
     active_layer: IntProperty(min=0, options={"HIDDEN"})
+
+    def frame_size(self, size=None) -> tuple[int, int]:
+        """Width and height of a frame, px; of a picture of another `size` where one is given. Rounded as in the engine."""
+        return tuple(max(1, int(side * self.output.scale + 0.5)) for side in size or self.picture_size)
 
 
 class STILLWATER_PG_former(bpy.types.PropertyGroup):
