@@ -166,7 +166,8 @@ class STILLWATER_OT_remove_picture(bpy.types.Operator):
         if not files:
             return {"FINISHED"}
         if not self.delete_files:
-            self.report({"INFO"}, rpt_("{name} is removed; its frames stay in {folder}").format(name=name, folder=files.folder))
+            sentence = rpt_("{name} is removed; its frames stay in {folder}")
+            self.report({"INFO"}, sentence.format(name=name, folder=files.folder))
             return {"FINISHED"}
         try:
             count = files.delete()

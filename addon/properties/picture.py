@@ -126,11 +126,11 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     collection: PointerProperty(type=bpy.types.Collection, options={"HIDDEN"})  # holds these three
     image: PointerProperty(type=bpy.types.Image, options={"HIDDEN"})  # the file as plane and node show it (image.py)
     missing: BoolProperty(options={"HIDDEN"})  # the file was not found when it was last looked for
-    picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
+    picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, as last read; 0: not yet
     active_layer: IntProperty(min=0, options={"HIDDEN"})
 
     def frame_size(self, size=None) -> tuple[int, int]:
-        """Width and height of a frame, px; of a picture of another `size` where one is given. Rounded as in the engine."""
+        """Width and height of a frame, px, rounded as the engine does; of a picture of another `size` where given."""
         return tuple(max(1, int(side * self.output.scale + 0.5)) for side in size or self.picture_size)
 
 

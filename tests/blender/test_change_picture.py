@@ -185,7 +185,7 @@ def test_a_colour_space_chosen_on_the_image_counts(extension, picture):
 def test_a_colour_space_that_the_engine_has_not_is_said(extension, scene, picture, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
     picture.image.colorspace_settings.name = "ACEScg"
-    with pytest.raises(RuntimeError, match="lake: its image is in ACEScg, which can't be animated; choose a Color Space"):
+    with pytest.raises(RuntimeError, match="lake: its image is in ACEScg, which can't be animated; choose a Color"):
         bpy.ops.stillwater.bake()
     picture.colour_space = "linear"
     assert picture.image.colorspace_settings.name == "Linear Rec.709" and bpy.ops.stillwater.bake() == {"FINISHED"}
