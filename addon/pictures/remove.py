@@ -8,6 +8,7 @@ from .. import versions
 from ..bake import job, places
 from ..compositor import tree as node
 from ..properties import arrange, names
+from ..properties.picture import frame_size
 from ..ui import polls
 from . import place
 from . import scene as settings
@@ -22,7 +23,7 @@ def remove(scene, index: int) -> None:
     made = _Made(scene, picture)
     if picture.tree is not None:
         job.end(picture.tree)
-    size, camera_gone = picture.frame_size(), scene.camera is None or scene.camera == picture.camera
+    size, camera_gone = frame_size(picture), scene.camera is None or scene.camera == picture.camera
     arrange.remove_picture(scene, index)
     made.remove()
     versions.drop_compositor(scene)

@@ -6,6 +6,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..compositor import tree as node
+from ..properties.picture import frame_size
 
 STANDARD = {
     "view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0,
@@ -87,7 +88,7 @@ def use_rate(scene, rate: str) -> None:
 def use_size(scene, picture) -> None:
     """Frames as large as the picture's."""
     render = scene.render
-    render.resolution_x, render.resolution_y = picture.frame_size()
+    render.resolution_x, render.resolution_y = frame_size(picture)
     render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1
 

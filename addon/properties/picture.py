@@ -59,6 +59,11 @@ class STILLWATER_PG_view(bpy.types.PropertyGroup):
     )
 
 
+def frame_size(picture, size=None) -> tuple[int, int]:
+    """Width and height of a frame, px, rounded as the engine does; of a picture of another `size` where given."""
+    return tuple(max(1, int(side * picture.output.scale + 0.5)) for side in size or picture.picture_size)
+
+
 def _follow_scale(output, context) -> None:
     """Where the scene renders its camera's picture at the picture's proportions, frames and renders stay as large."""
     scene = output.id_data
@@ -67,7 +72,7 @@ def _follow_scale(output, context) -> None:
     if picture.camera is None or scene.camera != picture.camera or not width:
         return
     if abs(render.resolution_x * height - render.resolution_y * width) <= max(width, height):
-        render.resolution_x, render.resolution_y = picture.frame_size()
+        render.resolution_x, render.resolution_y = frame_size(picture)
 
 
 class STILLWATER_PG_output(bpy.types.PropertyGroup):
@@ -126,12 +131,8 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
     collection: PointerProperty(type=bpy.types.Collection, options={"HIDDEN"})  # holds these three
     image: PointerProperty(type=bpy.types.Image, options={"HIDDEN"})  # the file as plane and node show it (image.py)
     missing: BoolProperty(options={"HIDDEN"})  # the file was not found when it was last looked for
-    picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, as last read; 0: not yet
+    picture_size: IntVectorProperty(size=2, min=0, options={"HIDDEN"})  # px, of the file as it was last read; 0 = not yet
     active_layer: IntProperty(min=0, options={"HIDDEN"})
-
-    def frame_size(self, size=None) -> tuple[int, int]:
-        """Width and height of a frame, px, rounded as the engine does; of a picture of another `size` where given."""
-        return tuple(max(1, int(side * self.output.scale + 0.5)) for side in size or self.picture_size)
 
 
 class STILLWATER_PG_former(bpy.types.PropertyGroup):
