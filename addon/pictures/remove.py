@@ -12,6 +12,7 @@ from ..properties.picture import frame_size
 from ..ui import polls
 from . import place
 from . import scene as settings
+from .open_picture import leave_mode
 
 
 def remove(scene, index: int) -> None:
@@ -162,6 +163,7 @@ class STILLWATER_OT_remove_picture(bpy.types.Operator):
         here = context.scene.stillwater
         picture = here.active()
         name, files = picture.name, places.files_of(picture)
+        leave_mode(context)
         remove(context.scene, here.active_picture)
         context.view_layer.update()
         if not files:
