@@ -69,6 +69,22 @@ class STILLWATER_PG_view(bpy.types.PropertyGroup):
     )
 
 
+def frame_size(picture, size=None) -> tuple[int, int]:
+    """Width and height of a frame, px, rounded as the engine does; of a picture of another `size` where given."""
+    return tuple(max(1, int(side * picture.output.scale + 0.5)) for side in size or picture.picture_size)
+
+
+def _follow_scale(output, context) -> None:
+    """Where the scene renders its camera's picture at the picture's proportions, frames and renders stay as large."""
+    scene = output.id_data
+    picture = scene.path_resolve(output.path_from_id().rpartition(".")[0])
+    render, (width, height) = scene.render, picture.picture_size
+    if picture.camera is None or scene.camera != picture.camera or not width:
+        return
+    if abs(render.resolution_x * height - render.resolution_y * width) <= max(width, height):
+        render.resolution_x, render.resolution_y = frame_size(picture)
+
+
 class STILLWATER_PG_output(bpy.types.PropertyGroup):
     """Where frames go and how they are written."""
 
@@ -89,7 +105,7 @@ class STILLWATER_PG_output(bpy.types.PropertyGroup):
     layers: BoolProperty(name="Layers", description="Each layer as its own EXR layer beside the whole", options=set())
     scale: FloatProperty(
         name="Scale", description="Output pixels for a picture pixel",
-        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(),
+        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(), update=_follow_scale,
     )
 
 
