@@ -72,9 +72,11 @@ def forget() -> None:
 def tidy() -> None:
     """Forgets what belongs to pictures that are gone."""
     here = {(each.session_uid, picture.id) for each in bpy.data.scenes for picture in each.stillwater.pictures}
-    for key in [key for key in _stages if key not in here]:
+    gone = [key for key in _stages if key not in here]
+    for key in gone:
         _stages.pop(key).close()
-    plane.sweep({identifier for _, identifier in here})
+    if gone:
+        plane.sweep({identifier for _, identifier in here})
 
 
 def _show(shown, picture, stage: Stage, refresh: bool) -> None:
