@@ -41,6 +41,7 @@ class Sources:
                 problems.append(f"{place}: {document.locate(name)}: {_why(error)}")
         if problems:
             raise RecipeError(*problems)
+        self.digests = digests
         self.key = stack_key(self.recipe, digests)
         self.size = self._size()
 
