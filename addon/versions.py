@@ -31,6 +31,18 @@ def use_compositor(scene) -> None:
         scene.use_nodes = True
 
 
+def composites(scene) -> bool:
+    """Whether renders of `scene` go through its compositor."""
+    switched_on = hasattr(scene, "compositing_node_group") or scene.use_nodes
+    return scene.render.use_compositing and switched_on and compositor_tree(scene) is not None
+
+
+def sequencer_of(context):
+    """The sequence editor that strips go into, made where there is none: of the workspace's scene where it has one."""
+    scene = getattr(context.workspace, "sequencer_scene", None) or context.scene
+    return scene.sequence_editor_create()
+
+
 def output_socket(tree):
     """The input socket of `tree` that takes the composited picture, made where there is none."""
     if hasattr(bpy.types, "CompositorNodeComposite"):  # before 5.0

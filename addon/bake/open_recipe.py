@@ -9,7 +9,7 @@ from .. import engine, versions
 from ..compositor import tree as node
 from ..properties import arrange
 from ..recipe.read import fill_picture, refuse
-from . import places
+from . import job, places
 
 
 def open_recipe(scene, path: Path):
@@ -35,9 +35,7 @@ def open_recipe(scene, path: Path):
         arrange.add_layer,
     )
     tree = node.ensure(scene, picture)
-    tree.stillwater.folder = places.locate_in(places.frames_of(picture))(".")
-    tree.stillwater.name = picture.output.name
-    tree.stillwater.first, tree.stillwater.last = recipe["frames"]
+    node.describe(tree, scene, picture, places.locate_in(places.frames_of(picture))("."), job.layers_alone(picture))
     node.show(tree)
     node.wire(scene, tree)
     return picture

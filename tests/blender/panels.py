@@ -39,6 +39,15 @@ class Recorder:
         self.operators.append(name)
         return SimpleNamespace(**{kind.identifier: None for kind in properties})
 
+    def operator_menu_enum(self, name, property, text="", icon="NONE"):
+        given = self.operator(name, text, icon)
+        self.operators.pop()
+        assert hasattr(given, property)
+        return given
+
+    def menu(self, name, text="", icon="NONE"):
+        assert getattr(bpy.types, name) and icon in ICONS
+
     def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
 

@@ -1,36 +1,8 @@
 """The whole way: the installed engine bakes a small recipe, and the node gives what its frames hold."""
 
 import bpy
-import numpy as np
 import pytest
-import recipes
-from pixels import HEIGHT, WIDTH, oiio, read_frame, render, same
-
-TREE = {"type": "sway", "armature": [[16, 16], [16, -16]], "amount": 3}
-
-
-@pytest.fixture
-def painted(scene, tmp_path):
-    """A recipe of a picture of 16 x 8, all of which sways in a strong wind, opened in a saved file."""
-    recipe = {
-        "stillwater": 1,
-        "picture": "picture.exr",
-        "frames": [5, 8],
-        "wind": {"speed": 20},
-        "layers": [{"name": "tree", "matte": {"file": "matte.png"}, "motion": TREE}, {"name": "behind"}],
-        "output": {"depth": "float"},
-    }
-    path = recipes.write(tmp_path / "lake", recipe)
-    noise = np.random.default_rng(1)
-    picture = noise.uniform(0.2, 0.8, (HEIGHT, WIDTH, 3)).astype(np.float32)
-    matte = np.ones((HEIGHT, WIDTH, 1), np.float32)
-    for name, pixels, kind in (("picture.exr", picture, "float"), ("matte.png", matte, "uint8")):
-        image = oiio.ImageBuf(oiio.ImageSpec(WIDTH, HEIGHT, pixels.shape[2], kind))
-        image.set_pixels(oiio.ROI(), pixels)
-        assert image.write(str(tmp_path / "lake" / name))
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
-    bpy.ops.stillwater.load_recipe(filepath=str(path))
-    return tmp_path / "stillwater" / "lake" / "frames"
+from pixels import read_frame, render, same
 
 
 def test_the_node_gives_what_the_engine_made(painted, tmp_path):

@@ -18,7 +18,7 @@ from .resolve import Now, Timeline
 ENGINES = {
     "picture": 1,
     "layers": 3,
-    "frame": 3,
+    "frame": 4,
     "wind": 1,
     "still": 1,
     "sway": 1,

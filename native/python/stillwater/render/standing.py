@@ -53,15 +53,20 @@ class Standing:
         return map(self.at, range(self.first, self.last + 1))
 
 
-def standing(document: Document, order: Order = Order(), read: Callable = read_mark) -> Standing:  # noqa: B008
+def standing(
+    document: Document,
+    order: Order = Order(),  # noqa: B008
+    read: Callable = read_mark,
+    cache: Cache | None = None,
+) -> Standing:
     """Looks a recipe's frames up without opening its pictures: as fast as their files' hashes are known.
 
-    Throws RecipeError and Refused with what is wrong with the recipe or its files' names.
+    `cache`: one of the recipe's folder, which remembers them. Throws RecipeError and Refused with what is wrong with the recipe or its files' names.
     """
     recipe = document.recipe
     first, last = frame_range(recipe, order)
     scale = recipe.output.scale if order.scale is None else order.scale
-    timeline, cache = Timeline(recipe), Cache(document.folder / FOLDER)
+    timeline, cache = Timeline(recipe), cache or Cache(document.folder / FOLDER)
     sources = Sources(document, cache)
     frame_size(sources.size, scale)
     keys = FrameKeys(timeline, sources.key, sources.size, scale)
