@@ -5,7 +5,7 @@ import bpy
 import pytest
 from pixels import PACKAGE
 
-CLASSES = (bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.types.UIList)
+CLASSES = (bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.types.UIList, bpy.types.Menu)
 
 
 def traces():
@@ -16,6 +16,7 @@ def traces():
     handlers = [handler for listed in lists for handler in listed if PACKAGE in handler.__module__]
     menus = [draw for draw in bpy.types.NODE_MT_compositor_node_add_all.draw._draw_funcs if PACKAGE in draw.__module__]
     properties = [cls for cls in (bpy.types.Scene, bpy.types.CompositorNodeTree) if hasattr(cls, "stillwater")]
+    menus += [draw for draw in bpy.types.STATUSBAR_HT_header.draw._draw_funcs if PACKAGE in draw.__module__]
     return classes, handlers, menus, properties
 
 
@@ -34,7 +35,7 @@ def enabled():
 def test_it_is_registered_after_its_installation(extension):
     classes, handlers, menus, properties = traces()
     assert {"STILLWATER_OT_bake", "STILLWATER_PG_layer", "STILLWATER_UL_layers", "STILLWATER_PT_view_3d"} <= classes
-    assert len(handlers) == 4 and len(menus) == 1 and len(properties) == 2
+    assert len(handlers) == 6 and len(menus) == 2 and len(properties) == 2
     assert extension.engine.problem() == "" and extension.engine.version().count(".") == 2
 
 
