@@ -30,6 +30,11 @@ def _frame_begins(*arguments):
     guard.frame_begins(*arguments)
 
 
+@persistent
+def _render_ends(*arguments):
+    guard.render_ends(*arguments)
+
+
 HANDLERS = [
     ("load_pre", _another_file),
     ("load_post", _settle),
@@ -37,6 +42,8 @@ HANDLERS = [
     ("redo_post", _settle),
     ("render_init", _render_begins),
     ("render_pre", _frame_begins),
+    ("render_complete", _render_ends),
+    ("render_cancel", _render_ends),
 ]
 
 

@@ -1,6 +1,9 @@
 """Renders of frames that are missing or out of date: warn, bake first, or say nothing, as the person prefers.
 
 The first frame of a render asks about itself alone; a second one says that it is an animation, and asks about all.
+Blender has evaluated the nodes before it comes to a frame: what is changed in them then is seen a frame too late, new
+files at once. So where a render bakes, the node is made ready when the render begins, with at least one frame, and does
+not send missing frames to the nearest until the render has ended.
 
 Where there is a window, Blender calls render handlers in the render's own thread. There nothing of Blender's is touched:
 a wish is left to a timer of the main thread, and only who wants frames baked first waits for it. Should the main
@@ -10,7 +13,7 @@ background, or from a script, the main thread renders, and bakes by itself.
 
 import contextvars
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import bpy
 
@@ -28,13 +31,14 @@ _in_main_thread: contextvars.ContextVar[bool] = contextvars.ContextVar("_in_main
 
 @dataclass
 class Wish:
-    """What a render asks for: one frame of a scene, or all."""
+    """What a render asks for a scene: to BEGIN, this FRAME, ALL frames, or to END."""
 
+    kind: str
     scene: str
     frame: int
-    whole: bool
     begun: bool = False
     over: bool = False
+    bakes: list[int] = field(default_factory=list)  # the trees (session_uid) whose bakes it started
 
 
 _wishes: list[Wish] = []
@@ -53,75 +57,125 @@ def render_begins(scene, *_) -> None:
     """A handler: a new render."""
     global _frames_so_far
     _frames_so_far = 0
+    _ask("BEGIN", scene)
 
 
 def frame_begins(scene, *_) -> None:
     """A handler: the render comes to a frame; what must be there is seen to."""
     global _frames_so_far
     _frames_so_far += 1
-    if _frames_so_far > 2:
-        return
-    wish = Wish(scene.name, scene.frame_current, _frames_so_far == 2)
+    if _frames_so_far <= 2:
+        _ask("FRAME" if _frames_so_far == 1 else "ALL", scene)
+
+
+def render_ends(scene, *_) -> None:
+    """A handler: the render is over, or cancelled."""
+    _ask("END", scene)
+
+
+def _ask(kind: str, scene) -> None:
+    wish = Wish(kind, scene.name, scene.frame_current)
     if _in_main_thread.get():
-        _grant_here(wish)
-    elif _preference != "NOTHING":
-        _wishes.append(wish)
-        while _preference == "BAKE" and not wish.over:
-            if time.monotonic() - _heard > SILENT:
-                print("Stillwater: Blender waits for this render; it goes on with the frames that there are", flush=True)
-                wish.over = True
-            time.sleep(LOOK)
+        _begin(wish, what_to_do_with_stale(bpy.context))
+        for tree in _baking(wish):
+            job.wait(tree)
+        _finish(wish)
+        return
+    if _preference == "NOTHING":
+        return
+    _wishes.append(wish)
+    while _preference == "BAKE" and kind != "END" and not wish.over:
+        if time.monotonic() - _heard > SILENT:
+            print("Stillwater: Blender waits for this render; it goes on with the frames that there are", flush=True)
+            wish.over = True
+        time.sleep(LOOK)
 
 
 def attend() -> float:
-    """The main thread's timer: grants wishes."""
+    """The main thread's timer: grants wishes, one after the other."""
     global _heard, _preference
     _heard, _preference = time.monotonic(), what_to_do_with_stale(bpy.context)
-    for wish in list(_wishes):
+    while _wishes:
+        wish = _wishes[0]
         if not wish.begun:
             wish.begun = True
             _begin(wish, _preference)
-        if not any(job.running(tree) for tree in _trees_of(wish)):
-            wish.over = True
-        if wish.over:
-            _wishes.remove(wish)
+        if not wish.over and _baking(wish):
+            break
+        _finish(wish)
+        wish.over = True
+        _wishes.remove(wish)
     return INTERVAL
-
-
-def _grant_here(wish: Wish) -> None:
-    _begin(wish, what_to_do_with_stale(bpy.context))
-    for tree in _trees_of(wish):
-        if job.running(tree):
-            job.wait(tree)
-            if tree.stillwater.state != "done":
-                _say(f"{tree.name}: {tree.stillwater.message}")
 
 
 def _begin(wish: Wish, preference: str) -> None:
     """Warns of what a wish's frames are not, or starts their bakes."""
     for scene, picture in _shown(wish) if preference != "NOTHING" else ():
-        found = outdated.look(scene, picture, play=False)
-        if found.is_ready or not (found.problem or wish.whole or found.at(wish.frame) != "ready"):
+        if wish.kind == "BEGIN":
+            if preference == "BAKE":
+                _make_ready(scene, picture, wish)
+        elif wish.kind in ("FRAME", "ALL"):
+            _see_to(scene, picture, wish, preference)
+
+
+def _see_to(scene, picture, wish: Wish, preference: str) -> None:
+    found = outdated.look(scene, picture, play=False)
+    if found.is_ready or (wish.kind == "FRAME" and not found.problem and found.at(wish.frame) == "ready"):
+        return
+    if found.problem or preference == "WARN":
+        _say(f"{picture.name}: {'; '.join(found.lines)}")
+    else:
+        _bake(scene, picture, wish, None if wish.kind == "ALL" else wish.frame)
+
+
+def _make_ready(scene, picture, wish: Wish) -> None:
+    """The node reads the frames as they come; one there must be, whose passes it knows."""
+    found = outdated.look(scene, picture, play=False)
+    if found.is_ready or found.problem:
+        return
+    tree = node.ensure(scene, picture)
+    tree.stillwater.holds = False
+    if not node.show(tree):
+        _bake(scene, picture, wish, min(max(wish.frame, scene.frame_start), scene.frame_end))
+
+
+def _bake(scene, picture, wish: Wish, frame: int | None) -> None:
+    """Starts the bake of one frame, or of all; one that runs already is waited for."""
+    try:
+        if not (picture.tree and job.running(picture.tree)):
+            job.start(scene, picture, frames=None if frame is None else (frame, frame))
+        wish.bakes.append(picture.tree.session_uid)
+    except (ValueError, OSError) as error:
+        _say(f"{picture.name}: {error}")
+
+
+def _finish(wish: Wish) -> None:
+    """After a wish: a bake that went wrong is said; then, and when the render ends, missing frames show the nearest."""
+    for _, picture in _shown(wish):
+        tree = picture.tree
+        if tree is None or job.running(tree):
             continue
-        if found.problem or preference == "WARN":
-            _say(f"{picture.name}: {'; '.join(found.lines)}")
-            continue
-        try:
-            job.start(scene, picture, frames=None if wish.whole else (wish.frame, wish.frame))
-        except (ValueError, OSError) as error:
-            _say(f"{picture.name}: {error}")
+        went_wrong = tree.session_uid in wish.bakes and tree.stillwater.state in ("failed", "cancelled")
+        if went_wrong:
+            _say(f"{picture.name}: {tree.stillwater.message}")
+        if (went_wrong or wish.kind == "END") and not tree.stillwater.holds:
+            tree.stillwater.holds = True
+            node.show(tree)
 
 
 def _shown(wish: Wish) -> list[tuple]:
     """The scene's pictures whose nodes its render goes through."""
     scene = bpy.data.scenes.get(wish.scene)
-    if scene is None or not versions.composites(scene) or not scene.frame_start <= wish.frame <= scene.frame_end:
+    if scene is None or not versions.composites(scene):
+        return []
+    if wish.kind in ("FRAME", "ALL") and not scene.frame_start <= wish.frame <= scene.frame_end:
         return []
     return [(scene, picture) for picture in scene.stillwater.pictures if node.nodes_of(scene, picture.id)]
 
 
-def _trees_of(wish: Wish) -> list:
-    return [picture.tree for _, picture in _shown(wish) if picture.tree is not None]
+def _baking(wish: Wish) -> list:
+    """The trees whose bakes it waits for."""
+    return [tree for tree in job.running_trees() if tree.session_uid in wish.bakes]
 
 
 def _say(sentence: str) -> None:

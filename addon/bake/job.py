@@ -148,7 +148,8 @@ def settle() -> None:
             continue
         if tree.stillwater.state == "running" and not running(tree):
             tree.stillwater.state, tree.stillwater.message = "cancelled", "Interrupted; the frames made so far are kept"
-        if not running(tree) and node.changed_on_disk(tree):
+        if not running(tree) and (node.changed_on_disk(tree) or not tree.stillwater.holds):
+            tree.stillwater.holds = True
             node.show(tree)
 
 

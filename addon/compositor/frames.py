@@ -2,6 +2,7 @@
 
 import bisect
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 
@@ -16,13 +17,13 @@ def path_of(folder: Path, name: str, frame: int) -> Path:
     return folder / f"{name}_{frame:04d}.exr"
 
 
-def nearest(frame: int, frames: list[int]) -> int:
+def nearest(frame: int, frames: Sequence[int]) -> int:
     """Of the frames that there are, in order, the one shown for `frame`; of two as near the earlier."""
     place = bisect.bisect_left(frames, frame)
     return min(frames[max(place - 1, 0) : place + 1], key=lambda there: (abs(there - frame), there))
 
 
-def offsets(first: int, last: int, frames: list[int]) -> list[tuple[int, int]]:
+def offsets(first: int, last: int, frames: Sequence[int]) -> list[tuple[int, int]]:
     """Where an image sequence's frame_offset has to change, so that a missing frame shows the nearest one.
 
     A list of (frame, offset from there on); one entry where nothing is missing.

@@ -99,7 +99,7 @@ def show(tree) -> list[int]:
             source.image = None
         return found
     image = _sequence(sources[0].image, frames.path_of(folder, state.name, found[0]), f"Stillwater {state.picture}")
-    offsets = frames.offsets(state.first, state.last, found)
+    offsets = frames.offsets(state.first, state.last, found if state.holds else range(state.first, state.last + 1))
     for source, (socket, layer) in zip(sources, [("", LAYER), *wanted], strict=True):
         source.image = image
         source.frame_start, source.frame_duration = state.first, state.last - state.first + 1

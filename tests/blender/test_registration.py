@@ -35,7 +35,7 @@ def enabled():
 def test_it_is_registered_after_its_installation(extension):
     classes, handlers, menus, properties = traces()
     assert {"STILLWATER_OT_bake", "STILLWATER_PG_layer", "STILLWATER_UL_layers", "STILLWATER_PT_view_3d"} <= classes
-    assert len(handlers) == 6 and len(menus) == 2 and len(properties) == 2
+    assert len(handlers) == 8 and len(menus) == 2 and len(properties) == 2
     assert extension.engine.problem() == "" and extension.engine.version().count(".") == 2
 
 
