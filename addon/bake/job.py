@@ -26,13 +26,13 @@ _told: dict[int, float] = {}  # when each one's tree was told last
 over: list = []  # called with each tree whose bake is over
 
 
-def describe(scene, picture, folder: Path) -> dict:
-    """The picture's recipe, its paths relative to `folder`."""
+def describe(scene, picture, folder: Path, frames: range | None = None) -> dict:
+    """The picture's recipe, its paths relative to `folder`. `frames`: where animated numbers are asked for, else all."""
     data = scene.animation_data
     animation = Animation(
         scene,
         picture.path_from_id(),
-        frames_to_sample(scene.frame_start, scene.frame_end),
+        frames or frames_to_sample(scene.frame_start, scene.frame_end),
         versions.curves_of(data.action, data.action_slot) if data else (),
         versions.stripped_paths(data) if data else (),
     )

@@ -14,6 +14,7 @@ import bpy
 
 from .. import engine, versions
 from ..compositor import tree as node
+from ..recipe.animation import facts_of
 from . import job, places
 from .report import Report, report
 
@@ -29,7 +30,7 @@ class _Picture:
     """What is known of one picture."""
 
     report: Report | None = None
-    fingerprint: str = ""  # of the recipe and the folder that it was found for
+    glance: str = ""  # what the report was found for
     steps: Iterator | None = None  # of a look that is not over
     due: float = 0.0  # when to look again
     marks: dict[Path, tuple] = field(default_factory=dict)  # what frames' files say, by their size and time
@@ -106,14 +107,13 @@ def _steps(known: _Picture, scene, picture) -> Iterator[bool]:
     """Looks at one frame a step; leaves the report. What is wrong with the recipe is the report's problem."""
     try:
         if picture.tree is None or not picture.tree.stillwater.there:
-            first, last = scene.frame_start, scene.frame_end
-            known.report, known.fingerprint = Report(missing=((first, last),)), ""
+            known.report, known.glance = Report(missing=((scene.frame_start, scene.frame_end),)), ""
             return
         folder = places.folder_of(picture)
-        recipe = job.describe(scene, picture, folder)
-        fingerprint = json.dumps([recipe, _state_of(folder, recipe)])
-        if fingerprint == known.fingerprint and known.report is not None:
+        glance = _glance(scene, picture, folder)
+        if glance == known.glance:
             return
+        recipe = job.describe(scene, picture, folder)
         yield False
         standing = engine.standing(engine.parse(recipe, folder), lambda path: _mark(known, path))
         found = []
@@ -121,9 +121,18 @@ def _steps(known: _Picture, scene, picture) -> Iterator[bool]:
             found.append(frames)
             yield False
         spans = engine.joined(found)
-        known.report, known.fingerprint = report(spans, engine.by_reason(spans)), fingerprint
+        known.report, known.glance = report(spans, engine.by_reason(spans)), glance
     except (ValueError, OSError) as error:
-        known.report, known.fingerprint = Report(problem=" ".join(str(error).splitlines())), ""
+        known.report, known.glance = Report(problem=" ".join(str(error).splitlines())), ""
+
+
+def _glance(scene, picture, folder: Path) -> str:
+    """All that a report follows from, had quickly: F-curves by their keys, files by their time."""
+    recipe = job.describe(scene, picture, folder, range(scene.frame_start, scene.frame_start + 1))
+    data, path = scene.animation_data, picture.path_from_id()
+    curves = versions.curves_of(data.action, data.action_slot) if data else []
+    keys = [facts_of(curve) for curve in curves if curve.data_path.startswith(path)]
+    return json.dumps([recipe, keys, _state_of(folder, recipe)])
 
 
 def _state_of(folder: Path, recipe: dict) -> list:

@@ -126,12 +126,31 @@ def test_the_timer_finds_it_by_itself(extension, picture):
     assert watch(extension) == ["Layer bush was added: frames 5-8"]
 
 
+CURVES = [
+    lambda curve: setattr(curve.keyframe_points[1].co, "y", 7),
+    lambda curve: setattr(curve.keyframe_points[0], "interpolation", "BOUNCE"),
+    lambda curve: setattr(curve.keyframe_points[0], "handle_right", (5.5, 30)),
+    lambda curve: setattr(curve.modifiers.new("NOISE"), "strength", 3),
+    lambda curve: setattr(curve, "mute", True),
+]
+
+
+@pytest.mark.parametrize("change", CURVES)
+def test_a_change_of_a_curve_is_seen_at_a_glance(extension, picture, change):
+    key((picture.wind, "speed"), (5, 20), (8, 9))
+    bpy.ops.stillwater.bake()
+    watch(extension)
+    data = bpy.context.scene.animation_data
+    change(extension.versions.curves_of(data.action, data.action_slot)[0])
+    assert watch(extension)[0].startswith("Wind changed: frames ")
+
+
 def test_the_timer_leaves_a_picture_alone_for_long_after_a_look(extension, picture, monkeypatch):
     """It takes a twentieth of the time at most."""
     outdated, told = extension.bake.outdated, []
     monkeypatch.setattr(outdated, "PAUSE", 0)
-    describe = extension.bake.job.describe
-    monkeypatch.setattr(extension.bake.job, "describe", lambda *a: told.append(1) or time.sleep(0.01) or describe(*a))
+    glance = outdated._glance
+    monkeypatch.setattr(outdated, "_glance", lambda *a: told.append(1) or time.sleep(0.01) or glance(*a))
     end = time.monotonic() + 0.5
     while time.monotonic() < end:
         outdated.tick()
