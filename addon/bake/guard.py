@@ -23,6 +23,7 @@ from . import job, outdated
 
 INTERVAL = 0.25  # s, between two looks at wishes
 SILENT = 5.0  # s without the main thread's timer, after which it counts as waiting for the render
+LONG = 60.0  # s, the same while it looks at the frames
 LOOK = 0.05  # s
 
 PACKAGE = __package__.rpartition(".")[0]
@@ -85,7 +86,7 @@ def _ask(kind: str, scene) -> None:
         return
     _wishes.append(wish)
     while _preference == "BAKE" and kind != "END" and not wish.over:
-        if time.monotonic() - _heard > SILENT:
+        if time.monotonic() - _heard > (LONG if wish.begun else SILENT):
             print("Stillwater: Blender waits for this render; it goes on with the frames that there are", flush=True)
             wish.over = True
         time.sleep(LOOK)
@@ -97,7 +98,7 @@ def attend() -> float:
     _heard, _preference = time.monotonic(), what_to_do_with_stale(bpy.context)
     while _wishes:
         wish = _wishes[0]
-        if not wish.begun:
+        if not wish.begun and not wish.over:
             wish.begun = True
             _begin(wish, _preference)
         if not wish.over and _baking(wish):

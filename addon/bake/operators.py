@@ -1,4 +1,4 @@
-"""Bake, cancel, look again, open a recipe."""
+"""Bake, cancel, check frames, open a recipe."""
 
 from pathlib import Path
 
@@ -108,11 +108,11 @@ class STILLWATER_OT_cancel(bpy.types.Operator):
         return {"FINISHED"} if found else {"CANCELLED"}
 
 
-class STILLWATER_OT_look_again(OfPicture, bpy.types.Operator):
+class STILLWATER_OT_check_frames(OfPicture, bpy.types.Operator):
     """Find out which frames are there and right, and why the others are out of date"""
 
-    bl_idname = "stillwater.look_again"
-    bl_label = "Look Again"
+    bl_idname = "stillwater.check_frames"
+    bl_label = "Check Frames"
 
     def act(self, context, picture):
         found = outdated.look(context.scene, picture)
@@ -150,4 +150,4 @@ class STILLWATER_OT_load_recipe(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = [STILLWATER_OT_bake, STILLWATER_OT_cancel, STILLWATER_OT_look_again, STILLWATER_OT_load_recipe]
+CLASSES = [STILLWATER_OT_bake, STILLWATER_OT_cancel, STILLWATER_OT_check_frames, STILLWATER_OT_load_recipe]

@@ -22,7 +22,7 @@ INTERVAL = 0.1  # s, between two steps
 STEP = 0.004  # s, what a step may take
 PAUSE = 0.5  # s, at least between two looks at a picture
 SHARE = 20  # times what a look at the recipe takes must pass before the next one
-PLAYED = "Driven values: Look Again says what is out of date"
+PLAYED = "Driven values: Check Frames says what is out of date"
 
 
 @dataclass

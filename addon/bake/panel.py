@@ -44,7 +44,7 @@ class STILLWATER_MT_bake(bpy.types.Menu):
 
     def draw(self, context):
         layout = self.layout
-        layout.operator("stillwater.look_again", icon="VIEWZOOM")
+        layout.operator("stillwater.check_frames", icon="VIEWZOOM")
         layout.operator("stillwater.refresh", icon="FILE_REFRESH")
         layout.separator()
         layout.operator("stillwater.export_recipe", icon="EXPORT")

@@ -128,7 +128,7 @@ def test_driven_numbers_are_said_to_be_unknown(scene, prefer, capfd):
     prefer("BAKE")
     scene.stillwater.pictures[0].wind.driver_add("speed")
     still(scene, 6)
-    assert "Stillwater: lake: Driven values: Look Again says what is out of date" in capfd.readouterr().out
+    assert "Stillwater: lake: Driven values: Check Frames says what is out of date" in capfd.readouterr().out
 
 
 def test_a_scene_that_does_not_show_it_is_left_alone(scene, prefer, painted):

@@ -5,9 +5,11 @@ import shutil
 import subprocess
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import pytest
+from panels import Recorder
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -43,6 +45,13 @@ def test_free_deletes_frames_and_cache_and_nothing_else(extension, baked):
     found = extension.bake.outdated.of(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
     assert found.lines == ["Not baked yet"]
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
+
+
+def test_the_menu_offers_what_there_is(painted):
+    menu = Recorder()
+    bpy.types.STILLWATER_MT_bake.draw(SimpleNamespace(layout=menu), bpy.context)
+    names = ["check_frames", "refresh", "export_recipe", "collect", "free_bake"]
+    assert menu.operators == [f"stillwater.{name}" for name in names]
 
 
 def test_nothing_is_freed_while_it_is_baked(extension, painted):

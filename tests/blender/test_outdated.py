@@ -90,7 +90,7 @@ def test_what_is_wrong_is_said_instead(picture, look):
     picture.layers[0].matte.file = "//none.png"
     assert "layers[0].matte.file: " in look()[0] and "there is no such file" in look()[0]
     with pytest.raises(RuntimeError, match="there is no such file"):
-        bpy.ops.stillwater.look_again()
+        bpy.ops.stillwater.check_frames()
 
 
 def test_driven_numbers_are_looked_at_when_asked(extension, picture, look):
@@ -98,7 +98,7 @@ def test_driven_numbers_are_looked_at_when_asked(extension, picture, look):
     driver.expression = "20"
     found = extension.bake.outdated.look(bpy.context.scene, picture, play=False)
     assert found.lines == [extension.bake.outdated.PLAYED] and found.words == ""
-    assert bpy.ops.stillwater.look_again() == {"FINISHED"}
+    assert bpy.ops.stillwater.check_frames() == {"FINISHED"}
     assert look() == ["All 4 frames are ready"]
 
 
