@@ -43,6 +43,21 @@ def sequencer_of(context):
     return scene.sequence_editor_create()
 
 
+def strip_frames(strip) -> range:
+    """The frames that a strip of the sequencer covers."""
+    if hasattr(strip, "left_handle"):  # 5.0 and later
+        return range(strip.left_handle, strip.right_handle)
+    return range(strip.frame_final_start, strip.frame_final_end)
+
+
+def set_strip_length(strip, frames: int) -> None:
+    """Makes a strip cover so many frames from its first on."""
+    if hasattr(strip, "duration"):
+        strip.duration = frames
+    else:
+        strip.frame_final_duration = frames
+
+
 def output_socket(tree):
     """The input socket of `tree` that takes the composited picture, made where there is none."""
     if hasattr(bpy.types, "CompositorNodeComposite"):  # before 5.0

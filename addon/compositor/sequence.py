@@ -4,6 +4,7 @@ from pathlib import Path
 
 import bpy
 
+from .. import versions
 from . import frames
 
 
@@ -20,15 +21,12 @@ def add_strip(editor, tree):
     strip = editor.strips.new_image(tree.name, first, _free_channel(editor, wanted), state.first, fit_method="ORIGINAL")
     for file in files[1:]:
         strip.elements.append(file.name)
-    strip.frame_final_duration = len(files)
+    versions.set_strip_length(strip, len(files))
     return strip
 
 
 def _free_channel(editor, wanted: range) -> int:
     """The lowest channel above whatever lies at these frames."""
-    covering = [
-        strip.channel
-        for strip in editor.strips
-        if strip.frame_final_start < wanted.stop and strip.frame_final_end > wanted.start
-    ]
-    return max(covering, default=0) + 1
+    covered = [(strip.channel, versions.strip_frames(strip)) for strip in editor.strips]
+    channels = [channel for channel, there in covered if there.start < wanted.stop and there.stop > wanted.start]
+    return max(channels, default=0) + 1
