@@ -14,12 +14,13 @@ from .. import engine, versions
 from ..compositor import tree as node
 from ..recipe.animation import Animation
 from ..recipe.write import frames_to_sample, recipe_of
+from ..ui import redraw
 from . import places
 from .progress import Progress
 from .worker import Worker
 
 INTERVAL = 0.1  # s, between two looks at the workers
-TELLING = 0.5  # s, between two changes of what panels show: each draws all of Blender's window anew
+TELLING = 0.5  # s, between two changes of what panels show: each draws them anew
 
 _jobs: dict[int, tuple[Worker, Progress]] = {}  # by the tree's session_uid
 _told: dict[int, float] = {}  # when each one's tree was told last
@@ -168,10 +169,12 @@ def end_all() -> None:
 
 
 def _tell(tree, progress: Progress) -> None:
-    """Puts the progress where panels read it; only what is new, since Blender draws everything anew for it."""
+    """Puts the progress where panels read it."""
     _told[tree.session_uid] = time.monotonic()
     state = tree.stillwater
     now = {"state": progress.state, "share": progress.share, "message": progress.message, "left": progress.left()}
     for name, value in {**now, "warning": "\n".join(progress.warnings)}.items():
         if getattr(state, name) != value:
             setattr(state, name, value)
+    redraw.panels()
+    redraw.status_bars()

@@ -15,6 +15,7 @@ import bpy
 from .. import engine, versions
 from ..compositor import tree as node
 from ..recipe.animation import facts_of
+from ..ui import redraw
 from . import job, places
 from .report import Report, report
 
@@ -164,10 +165,7 @@ def _show(picture, found: Report | None) -> None:
     """Lets nodes and panels say it."""
     if picture.tree is not None and found is not None and picture.tree.library is None:
         node.label(picture.tree, found.words)
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in {"VIEW_3D", "NODE_EDITOR"}:
-                area.tag_redraw()
+    redraw.panels()
 
 
 def _needs_playing(scene, picture) -> bool:

@@ -30,11 +30,11 @@ def _draw_bake(context, layout, scene, picture) -> None:
     row.operator("stillwater.bake", icon="RENDER_ANIMATION").picture = picture.name
     part = row.operator_menu_enum("stillwater.bake", "range", text="", icon="DOWNARROW_HLT")
     part.picture = picture.name
-    if state is not None and state.message:
+    found = outdated.of(scene, picture)
+    if state is not None and state.message and (found is None or state.state != "done"):
         sidebar.say(context, layout, state.message, "ERROR" if state.state == "failed" else "INFO")
     for warning in filter(None, state.warning.split("\n") if state is not None else []):
         sidebar.say(context, layout, warning, "ERROR")
-    found = outdated.of(scene, picture)
     for line in found.lines if found is not None else ["Looking which frames are ready"]:
         sidebar.say(context, layout, line, "CHECKMARK" if found is not None and found.is_ready else "DOT")
 

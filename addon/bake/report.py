@@ -23,7 +23,7 @@ class Report:
         if self.problem:
             return ""
         if self.stale:
-            return f"{_count(self.stale)} frames out of date" if _count(self.stale) > 1 else "1 frame out of date"
+            return "out of date"
         if self.missing and not self.ready:
             return "not baked"
         return "frames missing" if self.missing else "ready"

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -135,7 +136,7 @@ def test_the_time_left_is_told_in_panel_and_status_bar(extension, worker, state)
 
 
 def test_nothing_is_told_that_is_not_new(extension, worker, state, monkeypatch):
-    """Each change of what panels show draws all of Blender's window anew."""
+    """Each change of what panels show draws them anew."""
     worker("hang")
     job, told = extension.bake.job, []
     tree = job.start(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
@@ -194,6 +195,23 @@ def test_a_picture_is_baked_by_its_name(extension, scene, picture, worker, saved
     assert scene.stillwater.pictures[0].tree is not None and scene.stillwater.pictures[1].tree is None
     with pytest.raises(RuntimeError, match="Sea: the scene has no picture of this name"):
         bpy.ops.stillwater.bake(picture="Sea")
+
+
+def test_sidebars_and_status_bars_are_drawn_anew(extension, monkeypatch):
+    """A tool that is at work may have set the status text: it stays."""
+    drawn = []
+    region = lambda kind: SimpleNamespace(type=kind, tag_redraw=lambda: drawn.append(kind))  # noqa: E731
+    areas = [SimpleNamespace(type=kind, regions=[region("UI"), region("WINDOW")]) for kind in ("VIEW_3D", "PROPERTIES")]
+    clear = SimpleNamespace(status_text_set=drawn.append)
+    windows = [
+        SimpleNamespace(screen=SimpleNamespace(areas=areas), workspace=clear, modal_operators=modal) for modal in ([], [1])
+    ]
+    context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows), temp_override=lambda **_: nullcontext())
+    monkeypatch.setattr(extension.ui.redraw, "bpy", SimpleNamespace(context=context))
+    extension.ui.redraw.panels()
+    assert drawn == ["UI", "UI"]
+    extension.ui.redraw.status_bars()
+    assert drawn == ["UI", "UI", None]
 
 
 @pytest.mark.parametrize("mode", ["hang", "deaf"])
