@@ -12,6 +12,7 @@ TRIAL = 20  # s: how long a Python may take to load the engine
 
 _engine = None
 _problem = "the engine was not looked for yet"
+_caches: dict[Path, object] = {}  # by folder: they remember the hashes of files
 
 # -I: nothing of the user's own Python gets in. The engine's folder comes first, Blender's own modules after it.
 _START = """
@@ -50,6 +51,54 @@ def read_recipe(path: str) -> dict:
     import msgspec
 
     return msgspec.to_builtins(_engine.load(path).recipe)
+
+
+def parse(recipe: dict, folder: Path):
+    """A recipe as a checked document. Throws ValueError with the engine's sentences."""
+    if _engine is None:
+        raise ValueError(_problem)
+    return _engine.parse(recipe, folder)
+
+
+def standing(document, read):
+    """Looks up which frames of a document stand (the engine's render/standing.py). Throws ValueError, OSError.
+
+    `read`: what reads a frame's mark. Hashes of files are remembered as long as Blender runs.
+    """
+    from stillwater.render import cache, standing
+
+    folder = document.folder / cache.FOLDER
+    return standing.standing(document, read=read, cache=_caches.setdefault(folder, cache.Cache(folder)))
+
+
+def read_mark(path: Path):
+    """What a frame's file says that it was made from: its key, empty where it is not one of ours, and its parts."""
+    from stillwater.render.reads import read_mark
+
+    return read_mark(path)
+
+
+def joined(frames: list) -> list:
+    """Neighbouring frames in one state as one range."""
+    from stillwater.render.standing import joined
+
+    return joined(frames)
+
+
+def by_reason(spans: list) -> dict[str, list[tuple[int, int]]]:
+    """Each reason why frames are out of date, and their ranges."""
+    from stillwater.render.standing import by_reason
+
+    return by_reason(spans)
+
+
+def layer_names(names: list[str]) -> list[str]:
+    """Names of layers as they stand in the frames' files. Throws ValueError for an empty one or without an engine."""
+    if _engine is None:
+        raise ValueError(_problem)
+    from stillwater import _stillwater
+
+    return _stillwater.layer_names(names)
 
 
 def worker_command(python: str = "") -> list[str]:

@@ -51,6 +51,33 @@ def grease_pencils():
     return bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
 
 
+def composites(scene) -> bool:
+    """Whether renders of `scene` go through its compositor."""
+    switched_on = hasattr(scene, "compositing_node_group") or scene.use_nodes
+    return scene.render.use_compositing and switched_on and compositor_tree(scene) is not None
+
+
+def sequencer_of(context):
+    """The sequence editor that strips go into, made where there is none: of the workspace's scene where it has one."""
+    scene = getattr(context.workspace, "sequencer_scene", None) or context.scene
+    return scene.sequence_editor_create()
+
+
+def strip_frames(strip) -> range:
+    """The frames that a strip of the sequencer covers."""
+    if hasattr(strip, "left_handle"):  # 5.0 and later
+        return range(strip.left_handle, strip.right_handle)
+    return range(strip.frame_final_start, strip.frame_final_end)
+
+
+def set_strip_length(strip, frames: int) -> None:
+    """Makes a strip cover so many frames from its first on."""
+    if hasattr(strip, "duration"):
+        strip.duration = frames
+    else:
+        strip.frame_final_duration = frames
+
+
 def output_socket(tree):
     """The input socket of `tree` that takes the composited picture, made where there is none."""
     if hasattr(bpy.types, "CompositorNodeComposite"):  # before 5.0

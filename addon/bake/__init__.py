@@ -3,22 +3,48 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from . import job, leftovers, operators, panel
+from . import guard, job, keeping, leftovers, operators, outdated, panel, status_bar
 
-CLASSES = [*operators.CLASSES, *leftovers.CLASSES, *panel.CLASSES]
+CLASSES = [*operators.CLASSES, *keeping.CLASSES, *leftovers.CLASSES, *panel.CLASSES]
 
 
 @persistent
 def _another_file(*_):
     job.end_all()
+    outdated.forget()
 
 
 @persistent
 def _settle(*_):
     job.settle()
+    outdated.touch()
 
 
-HANDLERS = [("load_pre", _another_file), ("load_post", _settle), ("undo_post", _settle), ("redo_post", _settle)]
+@persistent
+def _render_begins(*arguments):
+    guard.render_begins(*arguments)
+
+
+@persistent
+def _frame_begins(*arguments):
+    guard.frame_begins(*arguments)
+
+
+@persistent
+def _render_ends(*arguments):
+    guard.render_ends(*arguments)
+
+
+HANDLERS = [
+    ("load_pre", _another_file),
+    ("load_post", _settle),
+    ("undo_post", _settle),
+    ("redo_post", _settle),
+    ("render_init", _render_begins),
+    ("render_pre", _frame_begins),
+    ("render_complete", _render_ends),
+    ("render_cancel", _render_ends),
+]
 
 
 def register():
@@ -26,10 +52,18 @@ def register():
         bpy.utils.register_class(cls)
     for name, handler in HANDLERS:
         getattr(bpy.app.handlers, name).append(handler)
+    bpy.types.STATUSBAR_HT_header.append(status_bar.draw)
+    job.over.append(outdated.touch)
+    outdated.register()
+    guard.register()
 
 
 def unregister():
+    guard.unregister()
+    job.over.remove(outdated.touch)
+    bpy.types.STATUSBAR_HT_header.remove(status_bar.draw)
     job.end_all()
+    outdated.unregister()
     for name, handler in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(handler)
     for cls in reversed(CLASSES):

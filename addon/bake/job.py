@@ -6,6 +6,7 @@ tree's session_uid: undo and loading may replace everything else. What panels sh
 
 import json
 import time
+from pathlib import Path
 
 import bpy
 
@@ -14,37 +15,54 @@ from ..compositor import tree as node
 from ..properties import image
 from ..recipe.animation import Animation
 from ..recipe.write import frames_to_sample, recipe_of
+from ..ui import redraw
 from . import places
 from .progress import Progress
 from .worker import Worker
 
-INTERVAL = 0.1  # s
+INTERVAL = 0.1  # s, between two looks at the workers
+TELLING = 0.5  # s, between two changes of what panels show: each draws them anew
 
 _jobs: dict[int, tuple[Worker, Progress]] = {}  # by the tree's session_uid
+_told: dict[int, float] = {}  # when each one's tree was told last
+over: list = []  # called with each tree whose bake is over
 
 
-def write_recipe(scene, picture) -> str:
-    """Writes the picture's recipe into its folder and returns the file's path."""
-    folder = places.folder_of(picture)
+def describe(scene, picture, folder: Path, frames: range | None = None) -> dict:
+    """The picture's recipe, its paths relative to `folder`. `frames`: where animated numbers are asked for, else all.
+
+    Throws ValueError where strokes can't be read.
+    """
     scene.view_layers[0].update()  # a script may have moved what strokes are seen through
     data = scene.animation_data
     animation = Animation(
         scene,
         picture.path_from_id(),
-        frames_to_sample(scene.frame_start, scene.frame_end),
+        frames or frames_to_sample(scene.frame_start, scene.frame_end),
         versions.curves_of(data.action, data.action_slot) if data else (),
         versions.stripped_paths(data) if data else (),
     )
-    recipe = recipe_of(scene, picture, animation, places.locate_from(folder), strokes.drawn(scene, picture))
-    path = folder / "recipe.json"
-    unfinished = path.with_suffix(".json.part")
+    return recipe_of(scene, picture, animation, places.locate_from(folder), strokes.drawn(scene, picture))
+
+
+def write_recipe(scene, picture, path: Path | None = None) -> str:
+    """Writes the picture's recipe to `path`, or into its folder, and returns the file's path.
+
+    Throws OSError, and ValueError where strokes can't be read.
+    """
+    path = path or places.folder_of(picture) / "recipe.json"
+    recipe = describe(scene, picture, path.parent)
+    unfinished = path.with_name(f"{path.name}.part")
     unfinished.write_text(json.dumps(recipe, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     unfinished.replace(path)
     return str(path)
 
 
-def start(scene, picture, fresh: bool = False):
-    """Writes the recipe and starts its worker; returns the tree. Throws ValueError and OSError with a sentence."""
+def start(scene, picture, fresh: bool = False, frames: tuple[int, int] | None = None):
+    """Writes the recipe and starts its worker; returns the tree. Throws ValueError and OSError with a sentence.
+
+    `frames`: first and last to bake, instead of all; the node shows all that are there, whichever.
+    """
     chosen = preferences.of(bpy.context)
     command = engine.worker_command(chosen.python)
     tree = node.claim(scene, picture)
@@ -52,18 +70,30 @@ def start(scene, picture, fresh: bool = False):
         raise ValueError(f"{picture.name}: is being baked already")
     image.take_over(picture)
     image.check(picture)
-    command += ["render", write_recipe(scene, picture), "--progress", "json", "--parent"]
+    command += ["render", _write_own_recipe(scene, picture), "--progress", "json", "--parent"]
     command += chosen.worker_options()
+    command += ["--frames", f"{frames[0]}-{frames[1]}"] if frames else []
     command += ["--fresh"] if fresh else []
-    state = tree.stillwater
-    state.folder = places.locate_in(places.frames_of(picture))(".")
-    state.name = picture.output.name
-    state.first, state.last = scene.frame_start, scene.frame_end
+    node.describe(tree, scene, picture, places.locate_in(places.frames_of(picture))("."), layers_alone(picture))
     _jobs[tree.session_uid] = Worker(command, bpy.app.tempdir), Progress()
     _tell(tree, _jobs[tree.session_uid][1])
     if not bpy.app.timers.is_registered(tick):
         bpy.app.timers.register(tick, first_interval=INTERVAL)
     return tree
+
+
+def _write_own_recipe(scene, picture) -> str:
+    try:
+        return write_recipe(scene, picture)
+    except OSError as error:
+        why = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        raise ValueError(f"{why}; save the file where a folder can be made beside it") from None
+
+
+def layers_alone(picture) -> list[tuple[str, str]]:
+    """Name and EXR layer of each layer that the frames hold beside the whole. Throws ValueError."""
+    named = [layer.name for layer in picture.layers if layer.visible] if picture.output.layers else []
+    return list(zip(named, engine.layer_names(named), strict=True)) if named else []
 
 
 def running(tree) -> bool:
@@ -90,18 +120,20 @@ def tick() -> float | None:
     for uid, (worker, progress) in list(_jobs.items()):
         tree = trees.get(uid)
         if tree is None:  # removed, or another file was opened
-            worker.close()
-            del _jobs[uid]
+            _end(uid)
             continue
         events, code = worker.poll()
         for event in events:
             progress.take(event)
         if code is not None:
             progress.end(code, worker.last_words())
-            worker.close()
-            del _jobs[uid]
+            _end(uid)
             node.show(tree)
-        _tell(tree, progress)
+        if code is not None or time.monotonic() - _told.get(uid, 0) >= TELLING:
+            _tell(tree, progress)
+        if code is not None:
+            for told in over:
+                told(tree)
     return INTERVAL if _jobs else None
 
 
@@ -121,28 +153,47 @@ def wait(tree) -> None:
         manager.progress_end()
 
 
+def running_trees() -> list:
+    """The trees that are being baked."""
+    return [tree for tree in bpy.data.node_groups if tree.session_uid in _jobs]
+
+
 def settle() -> None:
-    """After a file was opened or a step undone: what says that it is being baked, and is not, was cancelled."""
+    """After a file was opened or a step undone: what says that it is being baked, and is not, was cancelled.
+
+    Frames that lie on disk now, whatever happened since the file was saved, are shown.
+    """
     for tree in bpy.data.node_groups:
-        if tree.bl_idname == "CompositorNodeTree" and tree.stillwater.state == "running" and not running(tree):
+        if tree.bl_idname != "CompositorNodeTree" or not tree.stillwater.picture or tree.library is not None:
+            continue
+        if tree.stillwater.state == "running" and not running(tree):
             tree.stillwater.state, tree.stillwater.message = "cancelled", "Interrupted; the frames made so far are kept"
+        if not running(tree) and (node.changed_on_disk(tree) or not tree.stillwater.holds):
+            tree.stillwater.holds = True
+            node.show(tree)
+
+
+def _end(uid: int) -> None:
+    worker, _ = _jobs.pop(uid)
+    worker.close()
+    _told.pop(uid, None)
 
 
 def end_all() -> None:
     """Ends every worker."""
-    for worker, _ in _jobs.values():
-        worker.close()
-    _jobs.clear()
+    for uid in list(_jobs):
+        _end(uid)
     if bpy.app.timers.is_registered(tick):
         bpy.app.timers.unregister(tick)
 
 
 def _tell(tree, progress: Progress) -> None:
     """Puts the progress where panels read it."""
+    _told[tree.session_uid] = time.monotonic()
     state = tree.stillwater
-    state.state, state.share, state.message = progress.state, progress.share, progress.message
-    state.warning = "\n".join(progress.warnings)
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in {"VIEW_3D", "NODE_EDITOR"}:
-                area.tag_redraw()
+    now = {"state": progress.state, "share": progress.share, "message": progress.message, "left": progress.left()}
+    for name, value in {**now, "warning": "\n".join(progress.warnings)}.items():
+        if getattr(state, name) != value:
+            setattr(state, name, value)
+    redraw.panels()
+    redraw.status_bars()

@@ -1,5 +1,7 @@
 """What a worker's events say about its bake. Knows nothing of Blender."""
 
+import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from .worker import ending
@@ -14,7 +16,12 @@ class Progress:
     message: str = "Starting"
     warnings: list[str] = field(default_factory=list)
     frames: int = 0
+    of: int = 0
+    rendered: int = 0
+    seconds: float = 0.0  # that the rendered frames took
+    last: float = 0.0  # when the last frame came, by `now`
     cancelled: bool = False
+    now: Callable[[], float] = time.monotonic
 
     def take(self, event: dict) -> None:
         """Reads one event. Events of a kind that is not known are passed over: a newer engine may have more."""
@@ -22,13 +29,24 @@ class Progress:
             case {"event": "preparing", "share": float() | int() as share}:
                 self.message = f"Preparing {event.get('what') or ''}".strip() + f", {share:.0%}"
             case {"event": "frame", "frame": int() as frame, "of": int() as of}:
-                self.frames += 1
+                self.frames, self.of = self.frames + 1, of
                 self.share = min(1.0, self.frames / max(of, 1))
+                self.last = self.now()
+                if not event.get("kept"):
+                    self.rendered += 1
+                    self.seconds += seconds if isinstance(seconds := event.get("seconds"), int | float) else 0
                 self.message = f"Frame {frame}, {self.frames} of {of}"
             case {"event": "warning", "sentence": str() as message}:
                 self.warnings.append(message)
             case {"event": "error", "sentence": str() as message}:
                 self.state, self.message = "failed", message
+
+    def left(self) -> str:
+        """How long it will still take, in words; empty while that can't be said."""
+        if self.state != "running" or self.cancelled or not self.rendered or self.frames >= self.of:
+            return ""
+        seconds = self.seconds / self.rendered * (self.of - self.frames) - (self.now() - self.last)
+        return f"{duration(max(seconds, 0))} left"
 
     def end(self, code: int, words: str) -> None:
         """The worker has ended with `code`; `words` is the last it said in no event."""
@@ -37,9 +55,23 @@ class Progress:
         elif self.state == "failed":
             return
         elif code == 0:
-            self.state, self.share, self.message = "done", 1.0, f"Baked {_counted(self.frames)}"
+            self.state, self.share, self.message = "done", 1.0, self._done()
         else:
             self.state, self.message = "failed", ending(code, words)
+
+    def _done(self) -> str:
+        kept = self.frames - self.rendered
+        if not kept:
+            return f"Baked {_counted(self.frames)}"
+        return f"Baked {_counted(self.rendered)}, {kept} {'was' if kept == 1 else 'were'} right already"
+
+
+def duration(seconds: float) -> str:
+    """A time as people say it: 40 s, 3 min, 1 h 20 min."""
+    if seconds < 60:
+        return f"{max(1, round(seconds))} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 60 else f"{minutes // 60} h {minutes % 60} min"
 
 
 def _counted(frames: int) -> str:

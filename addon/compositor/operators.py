@@ -3,7 +3,7 @@
 import bpy
 
 from .. import versions
-from . import tree
+from . import sequence, tree
 
 
 class STILLWATER_OT_add_node(bpy.types.Operator):
@@ -61,10 +61,34 @@ class STILLWATER_OT_refresh(bpy.types.Operator):
         return {"FINISHED"}
 
 
+class STILLWATER_OT_add_to_sequencer(bpy.types.Operator):
+    """Add the active picture's frames to the sequencer as a strip, at their own frames"""
+
+    bl_idname = "stillwater.add_to_sequencer"
+    bl_label = "Add to Sequencer"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        picture = context.scene.stillwater.active()
+        if picture is None or picture.tree is None or not picture.tree.stillwater.there:
+            cls.poll_message_set("The picture has no frames yet: bake it first")
+            return False
+        return True
+
+    def execute(self, context):
+        shown = context.scene.stillwater.active().tree
+        if not tree.show(shown):
+            self.report({"ERROR"}, f"{shown.stillwater.folder}: holds no frames; bake the picture first")
+            return {"CANCELLED"}
+        sequence.add_strip(versions.sequencer_of(context), shown)
+        return {"FINISHED"}
+
+
 def draw_menu(self, context):
     if context.space_data.tree_type == "CompositorNodeTree":
         self.layout.separator()
         self.layout.operator(STILLWATER_OT_add_node.bl_idname, icon="SEQUENCE")
 
 
-CLASSES = [STILLWATER_OT_add_node, STILLWATER_OT_refresh]
+CLASSES = [STILLWATER_OT_add_node, STILLWATER_OT_refresh, STILLWATER_OT_add_to_sequencer]

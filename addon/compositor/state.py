@@ -1,7 +1,7 @@
 """What the node's tree knows of itself: whose frames it shows, where they lie, how their bake went."""
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..properties import names
 
@@ -15,6 +15,8 @@ class STILLWATER_PG_frames(bpy.types.PropertyGroup):
     name: StringProperty(name="Name", description="Frames are NAME_0001.exr", default="frame", options=set())
     first: IntProperty(name="First", description="First frame of the last bake", default=1, options=set())
     last: IntProperty(name="Last", description="Last frame of the last bake", default=1, options=set())
+    loop: BoolProperty(name="Loop", description="The last frame runs into the first", options=set())
+    layers: StringProperty(options={"HIDDEN"})  # JSON: name and EXR layer of each layer that the frames hold alone
     state: EnumProperty(
         name="Bake", description="How the last bake went", default="none", options=set(),
         items=[
@@ -26,6 +28,9 @@ class STILLWATER_PG_frames(bpy.types.PropertyGroup):
         ],
     )
     share: FloatProperty(name="Progress", description="Of the bake (0..1)", min=0, max=1, options=set())
+    left: StringProperty(name="Time Left", description="Of the bake", options=set())
+    holds: BoolProperty(default=True, options={"HIDDEN"})  # a missing frame shows the nearest; off in a render that bakes
+    there: StringProperty(options={"HIDDEN"})  # the frames that the node shows, as ranges: 1-4,7
     message: StringProperty(name="Message", description="What the worker does, or why it gave up", options=set())
     warning: StringProperty(name="Warning", description="What the worker warned of", options=set())
 

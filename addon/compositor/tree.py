@@ -1,6 +1,7 @@
 """The Stillwater node: a plain group of built-in nodes, fed by the frames on disk.
 
     Image node (EXR sequence) -> group output: Image, Alpha, Flow, Matte
+    one more for each layer that the frames hold alone -> an output of its name
 
 Until there are frames, a second Image node gives the picture at rest.
 
@@ -8,6 +9,7 @@ One tree for each picture, shared by all its nodes. Nothing here is a class of o
 the extension is disabled.
 """
 
+import json
 from pathlib import Path
 
 import bpy
@@ -16,7 +18,8 @@ from .. import versions
 from ..properties import names
 from . import frames
 
-LAYER = "Stillwater"  # of the EXR files
+LAYER = "Stillwater"  # of the EXR files: the whole frame
+SOURCE = "Frames"  # name of the Image node that reads it; those of single layers are "Frames NAME"
 # Output of the Image node, output of the group, its kind.
 OUTPUTS = [
     ("Combined", "Image", "NodeSocketColor"),
@@ -36,7 +39,7 @@ def ensure(scene, picture):
         for _, name, kind in OUTPUTS:
             tree.interface.new_socket(name, in_out="OUTPUT", socket_type=kind)
         source, output = tree.nodes.new("CompositorNodeImage"), tree.nodes.new("NodeGroupOutput")
-        source.name, source.label = "Frames", "Frames"
+        source.name, source.label = SOURCE, SOURCE
         output.location.x = source.location.x + 300
         picture.tree = tree
     _rest(picture.tree, picture.image)
@@ -49,9 +52,17 @@ def _rest(tree, image) -> None:
     if source is None and image is not None:
         source = tree.nodes.new("CompositorNodeImage")
         source.name, source.label = "Picture", "Picture"
-        source.location.y = tree.nodes["Frames"].location.y - 350
+        source.location.y = tree.nodes[SOURCE].location.y - 350
     if source is not None and source.image != image:
         source.image = image
+
+
+def describe(tree, scene, picture, folder: str, layers: list[tuple[str, str]]) -> None:
+    """Writes on the tree what frames it is to show. `layers`: name of each layer of its own, and its EXR layer's."""
+    state = tree.stillwater
+    state.folder, state.name, state.loop = folder, picture.output.name, picture.loop
+    state.first, state.last = scene.frame_start, scene.frame_end
+    state.layers = json.dumps(layers)
 
 
 def claim(scene, picture):
@@ -65,7 +76,9 @@ def claim(scene, picture):
     if owner == scene.name or owner not in holders:
         ensure(scene, picture).stillwater.scene = scene.name
         return picture.tree
-    versions.own_compositor_tree(scene)
+    own = versions.own_compositor_tree(scene)
+    if own is not None:
+        _own_groups(own, picture.id)
     nodes = nodes_of(scene, picture.id)
     picture.id, picture.tree = names.new_id(), None
     names.make_unique(picture, names.all_pictures())
@@ -75,51 +88,119 @@ def claim(scene, picture):
     return ensure(scene, picture)
 
 
+def _own_groups(tree, picture_id: str) -> None:
+    """Makes the groups in `tree` that hold the picture's node, at any depth, this scene's alone."""
+    for node in _groups(tree):
+        inside = node.node_tree
+        if inside.stillwater.picture != picture_id and any(_nodes_in(inside, picture_id)):
+            node.node_tree = inside.copy()
+            _own_groups(node.node_tree, picture_id)
+
+
 def show(tree) -> list[int]:
     """Points the tree at what lies in its folder now; returns the frames found.
 
     A frame missing between `first` and `last` shows the nearest that is there. Without any the node gives the picture
     at rest.
     """
-    state, source = tree.stillwater, tree.nodes["Frames"]
+    state = tree.stillwater
     folder = Path(bpy.path.abspath(state.folder))
     there = frames.present(folder, state.name) if state.folder else []
     found = [frame for frame in there if state.first <= frame <= state.last]
+    state.there = frames.spans(found)
+    wanted = _layers_of(tree)
+    _make_sockets(tree, [name for name, _ in wanted])
+    sources = _make_sources(tree, [name for name, _ in wanted])
+    _unlink(tree)
     if not found:
-        source.image = None
-        still = tree.nodes.get("Picture")
-        _link(tree, still, AT_REST if still is not None and still.image is not None else [])
+        for source in sources:
+            source.image = None
+        _show_at_rest(tree)
         return found
-    _point(source, frames.path_of(folder, state.name, found[0]), f"Stillwater {state.picture}")
-    source.frame_start = state.first
-    source.frame_duration = state.last - state.first + 1
-    source.use_auto_refresh = True
-    source.use_cyclic = False
-    _hold(tree, frames.offsets(state.first, state.last, found))
-    _link(tree, source, [(name, shown) for name, shown, _ in OUTPUTS])
+    image = _sequence(sources[0].image, frames.path_of(folder, state.name, found[0]), f"Stillwater {state.picture}")
+    offsets = frames.offsets(state.first, state.last, found if state.holds else range(state.first, state.last + 1))
+    for source, (socket, layer) in zip(sources, [("", LAYER), *wanted], strict=True):
+        source.image = image
+        source.frame_start, source.frame_duration = state.first, state.last - state.first + 1
+        source.use_auto_refresh, source.use_cyclic = True, state.loop
+        _hold(tree, source, offsets)
+        _link(tree, source, layer, [(socket, "Combined")] if socket else [(name, part) for part, name, _ in OUTPUTS])
     return found
 
 
-def _link(tree, source, pairs: list[tuple[str, str]]) -> None:
-    """Makes the group give these outputs of `source`, and none of its other source's."""
-    for link in [link for link in tree.links if link.from_node.name in ("Frames", "Picture")]:
+def _show_at_rest(tree) -> None:
+    still = tree.nodes.get("Picture")
+    if still is not None and still.image is not None:
+        output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+        for part, socket in AT_REST:
+            tree.links.new(still.outputs[part], output.inputs[socket])
+
+
+def _unlink(tree) -> None:
+    """Takes all of the group's sources off its outputs."""
+    for link in list(tree.links):
         tree.links.remove(link)
-    output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
-    for name, shown in pairs:
-        tree.links.new(source.outputs[name], output.inputs[shown])
 
 
-def _point(source, path: Path, name: str) -> None:
-    """Makes the Image node read the sequence that `path` is a file of, as it is on disk now."""
-    if source.image is None:
-        source.image = bpy.data.images.load(str(path))
-        source.image.name, source.image.source = name, "SEQUENCE"
-    image = source.image
+def changed_on_disk(tree) -> bool:
+    """Whether the frames in its folder are others than those that it shows."""
+    state = tree.stillwater
+    if not state.folder:
+        return False
+    there = frames.present(Path(bpy.path.abspath(state.folder)), state.name)
+    return state.there != frames.spans([frame for frame in there if state.first <= frame <= state.last])
+
+
+def _layers_of(tree) -> list[tuple[str, str]]:
+    """Output and EXR layer of each layer that the frames hold alone; no two outputs have one name."""
+    taken, found = [name for _, name, _ in OUTPUTS], []
+    for name, layer in json.loads(tree.stillwater.layers or "[]"):
+        socket, count = name, 0
+        while socket in taken:
+            count += 1
+            socket = f"{name}.{count:03d}"
+        taken.append(socket)
+        found.append((socket, layer))
+    return found
+
+
+def _make_sockets(tree, layers: list[str]) -> None:
+    """The group's outputs: those of every picture, and one of each layer; links of those that stay are kept."""
+    wanted = [name for _, name, _ in OUTPUTS] + layers
+    for item in [item for item in tree.interface.items_tree if item.item_type == "SOCKET"]:
+        if item.name not in wanted:
+            tree.interface.remove(item)
+    there = [item.name for item in tree.interface.items_tree if item.item_type == "SOCKET"]
+    for name in layers:
+        if name not in there:
+            tree.interface.new_socket(name, in_out="OUTPUT", socket_type="NodeSocketColor")
+
+
+def _make_sources(tree, layers: list[str]) -> list:
+    """The Image nodes: the whole frame's, and one for each layer."""
+    whole = tree.nodes[SOURCE]
+    wanted = [f"{SOURCE} {name}" for name in layers]
+    for node in [node for node in tree.nodes if node.name.startswith(f"{SOURCE} ") and node.name not in wanted]:
+        _release(tree, node)
+        tree.nodes.remove(node)
+    for place, name in enumerate(wanted, start=1):
+        if name not in tree.nodes:
+            node = tree.nodes.new("CompositorNodeImage")
+            node.name, node.label = name, name
+            node.location = (whole.location.x, whole.location.y - 320 * place)
+    return [whole, *(tree.nodes[name] for name in wanted)]
+
+
+def _sequence(image, path: Path, name: str):
+    """The image of the sequence that `path` is a file of, as it is on disk now."""
+    if image is None:
+        image = bpy.data.images.load(str(path))
+        image.name, image.source = name, "SEQUENCE"
     image.filepath = bpy.path.relpath(str(path)) if _can_be_relative(path) else str(path)
-    source.layer = LAYER
     # Both: either alone leaves a stale picture in renders or in the backdrop.
     image.reload()
     image.update_tag()
+    return image
 
 
 def _can_be_relative(path: Path) -> bool:
@@ -127,17 +208,39 @@ def _can_be_relative(path: Path) -> bool:
     return bool(bpy.data.filepath) and path.drive == Path(bpy.data.filepath).drive
 
 
-def _hold(tree, changes: list[tuple[int, int]]) -> None:
-    """Sets the Image node's frame_offset, keyed where it changes."""
-    source = tree.nodes["Frames"]
+def _link(tree, source, layer: str, pairs: list[tuple[str, str]]) -> None:
+    """Makes the group give passes of `layer`; of frames that do not hold it, nothing."""
+    output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+    try:
+        source.layer = layer
+    except TypeError:  # baked before layers were asked for
+        source.image = None
+        return
+    for socket, part in pairs:
+        tree.links.new(source.outputs[part], output.inputs[socket])
+
+
+def _release(tree, source) -> None:
+    """Takes the keys off the node's frame_offset."""
     path = f"{source.path_from_id()}.frame_offset"
     if tree.animation_data is not None:
         for curves in versions.channelbags(tree.animation_data):
             for curve in [curve for curve in curves if curve.data_path == path]:
                 curves.remove(curve)
+
+
+def _hold(tree, source, changes: list[tuple[int, int]]) -> None:
+    """Sets the Image node's frame_offset, keyed where it changes, and again in each turn of a loop."""
+    _release(tree, source)
     source.frame_offset = changes[0][1]
-    if len(changes) > 1:
-        versions.set_curve(tree, path, 0, changes, "CONSTANT")
+    if len(changes) == 1:
+        return
+    state, path = tree.stillwater, f"{source.path_from_id()}.frame_offset"
+    again = [(state.last + 1, changes[0][1])] if state.loop else []
+    versions.set_curve(tree, path, 0, [*changes, *again], "CONSTANT")
+    if state.loop:
+        curves = [curve for bag in versions.channelbags(tree.animation_data) for curve in bag]
+        next(curve for curve in curves if curve.data_path == path).modifiers.new("CYCLES")
 
 
 def add_node(scene, tree):
@@ -151,10 +254,32 @@ def add_node(scene, tree):
 
 
 def nodes_of(scene, picture_id: str) -> list:
-    """The nodes of the scene's compositor that show this picture."""
+    """The nodes of the scene's compositor that show this picture, in groups too."""
     top = versions.compositor_tree(scene)
-    groups = [node for node in top.nodes if node.bl_idname == "CompositorNodeGroup" and node.node_tree] if top else []
-    return [node for node in groups if node.node_tree.stillwater.picture == picture_id]
+    return list(_nodes_in(top, picture_id)) if top else []
+
+
+def _nodes_in(tree, picture_id: str):
+    for node in _groups(tree):
+        if node.node_tree.stillwater.picture == picture_id:
+            yield node
+        else:
+            yield from _nodes_in(node.node_tree, picture_id)
+
+
+def _groups(tree) -> list:
+    return [node for node in tree.nodes if node.bl_idname == "CompositorNodeGroup" and node.node_tree]
+
+
+def label(tree, words: str) -> None:
+    """Lets every node that shows `tree` say how its frames are; a label that the artist gave stays."""
+    text = f"{tree.name} ({words})" if words else tree.name
+    trees = [*bpy.data.node_groups, *map(versions.compositor_tree, bpy.data.scenes)]
+    for other in {tree for tree in trees if tree is not None and tree.bl_idname == "CompositorNodeTree"}:
+        for node in _groups(other):
+            ours = node.label == tree.name or node.label.startswith(f"{tree.name} (")
+            if node.node_tree == tree and ours and node.label != text and other.library is None:
+                node.label = text
 
 
 def is_free(scene) -> bool:
@@ -173,8 +298,9 @@ def wire(scene, tree) -> None:
     """
     top = versions.compositor_tree(scene)
     untouched = top is None or not top.nodes
-    node = next(iter(nodes_of(scene, tree.stillwater.picture)), None) or add_node(scene, tree)
-    top = versions.compositor_tree(scene)
+    top = versions.compositor_tree(scene, create=True)
+    shown = [node for node in nodes_of(scene, tree.stillwater.picture) if node.id_data == top]
+    node = next(iter(shown), None) or add_node(scene, tree)
     output = versions.output_socket(top)
     node.location = (output.node.location.x - 300, output.node.location.y)
     top.links.new(node.outputs["Image"], output)

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 
 from .. import engine, versions
-from ..bake import places
+from ..bake import job, places
 from ..compositor import tree as node
 from ..properties import arrange, image
 from ..recipe.read import fill_picture, refuse
@@ -44,10 +44,8 @@ def open_recipe(scene, path: Path):
     image.follow(picture)
     place.ensure(scene, picture)
     _use_time(scene, recipe)
-    state = node.ensure(scene, picture).stillwater
-    state.folder = places.locate_in(places.frames_of(picture))(".")
-    state.name = picture.output.name
-    state.first, state.last = recipe["frames"]
+    frames = places.locate_in(places.frames_of(picture))(".")
+    node.describe(node.ensure(scene, picture), scene, picture, frames, job.layers_alone(picture))
     return picture
 
 

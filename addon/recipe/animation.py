@@ -43,3 +43,24 @@ class Animation:
         for path, values in seen.items():
             for index, column in enumerate(zip(*values, strict=True)):
                 self._values[path, index] = list(column)
+
+
+# Of a key: what one of its numbers looks like, and how many there are.
+KEY_NUMBERS = {"co": (0.0, 2), "handle_left": (0.0, 2), "handle_right": (0.0, 2)}
+KEY_NUMBERS |= {"back": (0.0, 1), "amplitude": (0.0, 1), "period": (0.0, 1), "interpolation": (0, 1), "easing": (0, 1)}
+PLAIN = {"BOOLEAN", "INT", "FLOAT", "ENUM"}
+
+
+def facts_of(curve) -> list:
+    """All that an F-curve's values follow from, without evaluating it."""
+    points = curve.keyframe_points
+    facts = [curve.data_path, curve.array_index, curve.mute, curve.extrapolation]
+    for name, (number, count) in KEY_NUMBERS.items():
+        numbers = [number] * (count * len(points))
+        points.foreach_get(name, numbers)
+        facts.append(numbers)
+    for modifier in curve.modifiers:
+        kinds = [kind for kind in modifier.bl_rna.properties if kind.type in PLAIN]
+        values = [getattr(modifier, kind.identifier) for kind in kinds]
+        facts.append([list(value) if hasattr(value, "__len__") and not isinstance(value, str) else value for value in values])
+    return facts

@@ -7,10 +7,10 @@ import struct
 def plain(value: float, subtype: str = "NONE") -> float:
     """The shortest decimal number that Blender would keep as `value`; an angle comes in degrees."""
     angle = subtype == "ANGLE"
-    given = math.degrees(value) if angle else value
+    given, wanted = math.degrees(value) if angle else value, _kept(value)
     for digits in range(6, 10):
         short = float(f"{given:.{digits}g}")
-        if _kept(math.radians(short) if angle else short) == _kept(value):
+        if _kept(math.radians(short) if angle else short) == wanted:
             return short
     return given
 

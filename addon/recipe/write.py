@@ -56,7 +56,8 @@ def _value(group, name: str, animation: Animation):
         return value
     numbers = list(value) if kind.is_array else [value]
     rows = _rows(group, name, numbers, animation) if kind.is_animatable else [numbers]
-    limited = [[min(max(v, kind.hard_min), kind.hard_max) for v in row] for row in rows]
+    low, high = kind.hard_min, kind.hard_max
+    limited = [[min(max(v, low), high) for v in row] for row in rows]
     written = [[plain(v, kind.subtype) for v in row] for row in limited]
     return over_time(written if kind.is_array else [row[0] for row in written], animation.frames.start)
 

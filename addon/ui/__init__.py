@@ -1,4 +1,4 @@
-"""The sidebar's tab: its main panel, and what the panels of all rooms share (sidebar.py)."""
+"""The sidebar's tab: its main panel, what the panels of all rooms share (sidebar.py), drawing them anew (redraw.py)."""
 
 import bpy
 

@@ -34,7 +34,7 @@ std::string cut(const std::string& text, std::size_t bytes) {
 }  // namespace
 
 std::vector<std::string> layer_names(const std::vector<std::string>& names) {
-  std::vector<std::string> given;
+  std::vector<std::string> given{"Stillwater"};
   for (const std::string& name : names) {
     if (name.empty()) throw BadInput("layers: an empty name is not a layer's name");
     const std::string whole = escaped(name);
@@ -45,6 +45,7 @@ std::vector<std::string> layer_names(const std::vector<std::string>& names) {
     }
     given.push_back(candidate);
   }
+  given.erase(given.begin());
   return given;
 }
 

@@ -47,7 +47,7 @@ OIIO::ImageSpec header(const FrameImages& images, const FrameOptions& options) {
   add("Stillwater.Matte.", "V", colour);
   std::vector<std::string> names;
   for (const NamedImage& layer : images.layers) names.push_back(layer.name);
-  for (const std::string& name : layer_names(names)) add(name + ".", "RGBA", colour);
+  for (const std::string& name : layer_names(names)) add(name + ".Combined.", "RGBA", colour);
   spec.nchannels = static_cast<int>(spec.channelnames.size());
   spec.attribute("compression", options.compression + (is_zip(options.compression) ? zip_level : ""));
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709.data());

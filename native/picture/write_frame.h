@@ -11,7 +11,7 @@
 ///     Stillwater.Combined.R/G/B/A   the same again, as a pass of Blender's Image node
 ///     Stillwater.Flow.X/Y/Z         float, mantissa rounded to 12 bits; Z = 0: Blender 5.2 misreads two channels
 ///     Stillwater.Matte.V            half or float
-///     NAME.R/G/B/A                  half or float, each layer that is given
+///     NAME.Combined.R/G/B/A         half or float, each layer that is given: Blender shows a layer NAME, as of its own
 ///
 /// The second copy costs few bytes under zip: it lies within deflate's window of the first.
 /// The bytes depend on the arguments alone, not on the number of threads. A value beyond a half's largest (65504) is
@@ -47,7 +47,7 @@ std::string read_frame_key(const std::string& path);
 
 /// Names of layers as OpenEXR has them: "." (which would part it), "%" and control characters as %2E and the like;
 /// cut at 63 bytes (Blender's limit), at a whole UTF-8 character; two that would be the same get ~2, ~3, ... at
-/// their ends. Throws BadInput where a name is empty.
+/// their ends, and so does "Stillwater", whose layer is the whole frame. Throws BadInput where a name is empty.
 std::vector<std::string> layer_names(const std::vector<std::string>& names);
 
 }  // namespace stillwater

@@ -1,10 +1,14 @@
-"""A fresh file for each test, a picture in it, and frames that its node shows."""
+"""A fresh file for each test, a picture in it, and frames that its node shows; or a recipe that can be baked."""
 
 import importlib
 
 import bpy
+import numpy as np
 import pytest
-from pixels import PACKAGE, set_up, write_frame
+import recipes
+from pixels import HEIGHT, PACKAGE, WIDTH, oiio, set_up, write_frame
+
+TREE = {"type": "sway", "armature": [[16, 16], [16, -16]], "amount": 3}
 
 
 @pytest.fixture
@@ -39,3 +43,27 @@ def baked(extension, scene, picture, tmp_path):
     extension.compositor.tree.show(tree)
     extension.compositor.tree.wire(scene, tree)
     return tree, frames
+
+
+@pytest.fixture
+def painted(scene, tmp_path):
+    """A recipe of a picture of 16 x 8, all of which sways in a strong wind, opened in a saved file."""
+    recipe = {
+        "stillwater": 1,
+        "picture": "picture.exr",
+        "frames": [5, 8],
+        "wind": {"speed": 20},
+        "layers": [{"name": "tree", "matte": {"file": "matte.png"}, "motion": TREE}, {"name": "behind"}],
+        "output": {"depth": "float"},
+    }
+    path = recipes.write(tmp_path / "lake", recipe)
+    noise = np.random.default_rng(1)
+    picture = noise.uniform(0.2, 0.8, (HEIGHT, WIDTH, 3)).astype(np.float32)
+    matte = np.ones((HEIGHT, WIDTH, 1), np.float32)
+    for name, pixels, kind in (("picture.exr", picture, "float"), ("matte.png", matte, "uint8")):
+        image = oiio.ImageBuf(oiio.ImageSpec(WIDTH, HEIGHT, pixels.shape[2], kind))
+        image.set_pixels(oiio.ROI(), pixels)
+        assert image.write(str(tmp_path / "lake" / name))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    bpy.ops.stillwater.load_recipe(filepath=str(path))
+    return tmp_path / "stillwater" / "lake" / "frames"

@@ -21,6 +21,8 @@ def say(**event):
 
 recipe = json.loads(Path(recipe_file).read_text())
 first, last = recipe["frames"]
+if "--frames" in options:
+    first, last = map(int, options[options.index("--frames") + 1].split("-"))
 folder = Path(recipe_file).parent / recipe["output"]["folder"]
 (folder.parent / "options.txt").write_text(" ".join(options))
 if mode == "refuse":

@@ -53,6 +53,15 @@ class Recorder:
     def operator_menu_enum(self, name, property):
         self.operator(name)
 
+    def operator_menu_enum(self, name, property, text="", icon="NONE"):
+        given = self.operator(name, text, icon)
+        self.operators.pop()
+        assert hasattr(given, property)
+        return given
+
+    def menu(self, name, text="", icon="NONE"):
+        assert getattr(bpy.types, name) and icon in ICONS
+
     def template_list(self, kind, identifier, data, name, active_data, active_name, rows=1):
         assert getattr(bpy.types, kind) and hasattr(data, name) and hasattr(active_data, active_name)
         self.lists.append(active_name)

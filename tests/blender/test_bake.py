@@ -5,10 +5,13 @@ import os
 import subprocess
 import sys
 import time
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import pytest
+from panels import Recorder
 from pixels import render, same, write_frame
 
 FAKE = Path(__file__).with_name("fake_worker.py")
@@ -25,6 +28,8 @@ def saved(scene, picture, tmp_path):
 def worker(extension, scene, saved, tmp_path, monkeypatch):
     """Makes bakes start the fake worker in a mode; returns the frames that it delivers."""
     frames = {number: write_frame(tmp_path / "made" / f"frame_{number:04d}.exr", number) for number in range(5, 9)}
+
+    monkeypatch.setattr(extension.bake.job, "TELLING", 0)
 
     def use(mode):
         command = [sys.executable, str(FAKE), mode, str(tmp_path / "made")]
@@ -115,6 +120,100 @@ def test_lines_that_are_no_events_do_no_harm(worker, state):
     assert (state().state, state().message) == ("done", "Baked 4 frames")
 
 
+def test_the_time_left_is_told_in_panel_and_status_bar(extension, worker, state):
+    worker("hang")
+    tree = extension.bake.job.start(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
+    until(extension, lambda: state().left)
+    assert state().left == "1 s left"
+    bar = Recorder()
+    extension.bake.status_bar.draw(SimpleNamespace(layout=bar), bpy.context)
+    assert bar.texts == [f"{state().message}, 1 s left"] and bar.operators == ["stillwater.cancel"]
+    assert bpy.ops.stillwater.cancel(tree=tree.name) == {"FINISHED"}
+    until(extension, lambda: not extension.bake.job.running(tree))
+    empty = Recorder()
+    extension.bake.status_bar.draw(SimpleNamespace(layout=empty), bpy.context)
+    assert state().left == "" and empty.texts == []
+
+
+def test_nothing_is_told_that_is_not_new(extension, worker, state, monkeypatch):
+    """Each change of what panels show draws them anew."""
+    worker("hang")
+    job, told = extension.bake.job, []
+    tree = job.start(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
+    until(extension, lambda: "nothing at all" in state().message)
+    monkeypatch.setattr(job, "TELLING", 60)
+    monkeypatch.setattr(job, "_tell", lambda *_: told.append(1))
+    for _ in range(5):
+        job.tick()
+    assert told == [] and job.running(tree)
+
+
+@pytest.mark.parametrize(
+    "kind, options",
+    [
+        ("ALL", ""),
+        ("PREVIEW", " --frames 6-8"),  # cut at the scene's last
+        ("CURRENT", " --frames 7-7"),
+    ],
+)
+def test_a_part_of_the_frames_can_be_baked(scene, worker, saved, kind, options):
+    worker("plain")
+    scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 6, 20
+    scene.frame_set(7)
+    assert bpy.ops.stillwater.bake(range=kind) == {"FINISHED"}
+    assert (saved / "options.txt").read_text() == f"--progress json --parent{options}"
+    assert json.loads((saved / "recipe.json").read_text())["frames"] == [5, 8]  # a loop's period stays
+
+
+def test_visible_frames_are_those_of_a_timeline(extension, scene):
+    """The window of a Blender without one has areas, and a timeline among them."""
+    region = SimpleNamespace(type="WINDOW", width=100, view2d=SimpleNamespace(region_to_view=lambda x, y: (5.6 + x / 50, y)))
+    area = SimpleNamespace(type="DOPESHEET_EDITOR", regions=[region])
+    context = SimpleNamespace(scene=scene, window=SimpleNamespace(screen=SimpleNamespace(areas=[area])))
+    assert extension.bake.ranges.frames_of(context, "VISIBLE") == (6, 8)
+    context.window.screen.areas.clear()
+    with pytest.raises(ValueError, match="No timeline or dope sheet is open"):
+        extension.bake.ranges.frames_of(context, "VISIBLE")
+
+
+def test_ranges_that_are_none_are_sentences(scene, worker):
+    worker("plain")
+    with pytest.raises(RuntimeError, match="The timeline has no preview range; set one with P"):
+        bpy.ops.stillwater.bake(range="PREVIEW")
+    scene.frame_set(30)
+    with pytest.raises(RuntimeError, match="Frame 30 is not within the scene's frames, 5 to 8"):
+        bpy.ops.stillwater.bake(range="CURRENT")
+    scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 50, 60
+    with pytest.raises(RuntimeError, match="Frames 50 to 60 are not within"):
+        bpy.ops.stillwater.bake(range="PREVIEW")
+
+
+def test_a_picture_is_baked_by_its_name(extension, scene, picture, worker, saved):
+    worker("plain")
+    extension.properties.arrange.add_picture(scene, "Other")
+    assert bpy.ops.stillwater.bake(picture="Lake") == {"FINISHED"}
+    assert scene.stillwater.pictures[0].tree is not None and scene.stillwater.pictures[1].tree is None
+    with pytest.raises(RuntimeError, match="Sea: the scene has no picture of this name"):
+        bpy.ops.stillwater.bake(picture="Sea")
+
+
+def test_sidebars_and_status_bars_are_drawn_anew(extension, monkeypatch):
+    """A tool that is at work may have set the status text: it stays."""
+    drawn = []
+    region = lambda kind: SimpleNamespace(type=kind, tag_redraw=lambda: drawn.append(kind))  # noqa: E731
+    areas = [SimpleNamespace(type=kind, regions=[region("UI"), region("WINDOW")]) for kind in ("VIEW_3D", "PROPERTIES")]
+    clear = SimpleNamespace(status_text_set=drawn.append)
+    windows = [
+        SimpleNamespace(screen=SimpleNamespace(areas=areas), workspace=clear, modal_operators=modal) for modal in ([], [1])
+    ]
+    context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows), temp_override=lambda **_: nullcontext())
+    monkeypatch.setattr(extension.ui.redraw, "bpy", SimpleNamespace(context=context))
+    extension.ui.redraw.panels()
+    assert drawn == ["UI", "UI"]
+    extension.ui.redraw.status_bars()
+    assert drawn == ["UI", "UI", None]
+
+
 @pytest.mark.parametrize("mode", ["hang", "deaf"])
 def test_cancel_ends_the_worker_and_keeps_the_frames(extension, saved, worker, state, mode):
     worker(mode)
@@ -174,6 +273,37 @@ def test_undo_during_a_bake_loses_nothing(extension, worker, state):
     assert (state().state, state().message) == ("done", "Baked 4 frames")
 
 
+def test_undo_and_redo_during_a_bake_end_with_the_frames(extension, worker, state):
+    worker("slow")
+    bpy.ops.ed.undo_push(message="before")
+    extension.bake.job.start(bpy.context.scene, bpy.context.scene.stillwater.pictures[0])
+    bpy.ops.ed.undo_push(message="bake")
+    for speed in (9, 10, 11):
+        bpy.context.scene.stillwater.pictures[0].wind.speed = speed
+        bpy.ops.ed.undo_push(message="wind")
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.undo, bpy.ops.ed.redo):
+        step()
+        extension.bake.job.tick()
+    until(extension, lambda: not extension.bake.job._jobs)
+    assert bpy.context.scene.stillwater.pictures[0].wind.speed == 10
+    assert (state().state, state().there) == ("done", "5-8")
+
+
+def test_undo_after_a_bake_shows_what_lies_on_disk(extension, scene, worker, state, tmp_path):
+    """The step before knew of no frames; they are there all the same."""
+    frames = worker("plain")
+    extension.compositor.tree.ensure(scene, scene.stillwater.pictures[0])
+    extension.compositor.tree.wire(scene, state().id_data)
+    state().folder = "//stillwater/Lake/frames"
+    state().first, state().last = 5, 8
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.stillwater.bake()
+    bpy.ops.ed.undo_push(message="bake")
+    bpy.ops.ed.undo()
+    assert state().there == "5-8"
+    same(render(bpy.context.scene, 6, tmp_path), frames[6])
+
+
 def test_undoing_the_bake_itself_ends_the_worker(extension, worker):
     worker("hang")
     bpy.ops.ed.undo_push(message="before")
@@ -204,9 +334,16 @@ time.sleep(60)
 
 def test_a_worker_that_can_t_be_started_is_a_sentence(extension, saved, monkeypatch):
     monkeypatch.setattr(extension.engine, "worker_command", lambda python: ["/nowhere/python"])
-    with pytest.raises(RuntimeError, match="No such file or directory: '/nowhere/python'"):
+    with pytest.raises(RuntimeError, match="/nowhere/python: No such file or directory"):
         bpy.ops.stillwater.bake()
     assert not extension.bake.job._jobs
+
+
+def test_a_folder_that_can_t_be_made_is_a_sentence(scene, saved, worker):
+    worker("plain")
+    saved.parent.write_text("a file where the folder is to be")
+    with pytest.raises(RuntimeError, match="stillwater.*; save the file where a folder can be made beside it"):
+        bpy.ops.stillwater.bake()
 
 
 def test_an_unsaved_file_bakes_into_the_user_s_folder(extension, scene, picture, worker, state):

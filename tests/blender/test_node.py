@@ -3,7 +3,7 @@
 import addon_utils
 import bpy
 import pytest
-from pixels import PACKAGE, render, same, set_up, write_frame
+from pixels import PACKAGE, oiio, render, same, set_up, write_frame
 
 
 def test_every_output_is_the_file_s(scene, baked, tmp_path):
@@ -167,6 +167,90 @@ def test_one_tree_serves_all_nodes_of_a_picture(extension, scene, picture, baked
     nodes = extension.compositor.tree.nodes_of(scene, picture.id)
     assert len(nodes) == 4 and baked[0].users == 5  # the picture is one
     assert [output.name for output in nodes[0].outputs] == ["Image", "Alpha", "Flow", "Matte"]
+
+
+def grouped(extension, scene, tree, depth):
+    """Moves the scene's node into a group, in a group, ..., and wires that to the output."""
+    top = extension.versions.compositor_tree(scene)
+    top.nodes.remove(extension.compositor.tree.nodes_of(scene, tree.stillwater.picture)[0])
+    inner = tree
+    for _ in range(depth):
+        outer = bpy.data.node_groups.new("Mine", "CompositorNodeTree")
+        outer.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        node, output = outer.nodes.new("CompositorNodeGroup"), outer.nodes.new("NodeGroupOutput")
+        node.node_tree = inner
+        outer.links.new(node.outputs["Image"], output.inputs[0])
+        inner = outer
+    node = top.nodes.new("CompositorNodeGroup")
+    node.node_tree = inner
+    top.links.new(node.outputs["Image"], extension.versions.output_socket(top))
+
+
+def rendered(scene, frame, folder):
+    """What the scene's render shows."""
+    settings = scene.render.image_settings
+    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "32"
+    scene.render.filepath = str(folder / "render.exr")
+    bpy.context.window.scene = scene
+    scene.frame_set(frame)
+    bpy.ops.render.render(write_still=True)
+    return oiio.ImageBuf(scene.render.filepath).get_pixels("float")
+
+
+@pytest.mark.parametrize("depth", [1, 2])
+def test_it_works_inside_other_groups(extension, scene, picture, baked, tmp_path, depth):
+    grouped(extension, scene, baked[0], depth)
+    assert (rendered(scene, 6, tmp_path) == baked[1][6]["Image"]).all()
+    assert len(extension.compositor.tree.nodes_of(scene, picture.id)) == 1
+    new = write_frame(tmp_path / "frames" / "frame_0006.exr", 66)
+    bpy.ops.stillwater.refresh()
+    assert (rendered(scene, 6, tmp_path) == new["Image"]).all()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert (rendered(bpy.context.scene, 7, tmp_path) == baked[1][7]["Image"]).all()
+
+
+@pytest.mark.parametrize("kind", ["LINK_COPY", "FULL_COPY"])
+def test_a_copied_scene_gets_groups_of_its_own_when_it_is_baked(extension, scene, baked, tmp_path, kind):
+    grouped(extension, scene, baked[0], 2)
+    bpy.ops.scene.new(type=kind)
+    copy = bpy.data.scenes["Scene.001"]
+    ours = extension.compositor.tree.claim(copy, copy.stillwater.pictures[0])
+    own = write_frame(tmp_path / "own" / "frame_0006.exr", 1)
+    ours.stillwater.folder, ours.stillwater.first, ours.stillwater.last = str(tmp_path / "own"), 5, 8
+    extension.compositor.tree.show(ours)
+    assert (rendered(copy, 6, tmp_path) == own["Image"]).all()
+    assert (rendered(bpy.data.scenes["Scene"], 6, tmp_path) == baked[1][6]["Image"]).all()
+
+
+def test_it_works_in_a_second_scene(extension, scene, baked, tmp_path):
+    """Another scene shows the first one's picture: one tree, two compositors."""
+    other = bpy.data.scenes.new("Other")
+    set_up(other)
+    extension.compositor.tree.wire(other, baked[0])
+    for frame in (5, 8):
+        same(render(other, frame, tmp_path), baked[1][frame])
+        same(render(scene, frame, tmp_path), baked[1][frame])
+
+
+def test_a_duplicated_node_shows_the_same_and_goes_alone(extension, scene, picture, baked, tmp_path):
+    first = extension.compositor.tree.nodes_of(scene, picture.id)[0]
+    second = extension.compositor.tree.add_node(scene, first.node_tree)
+    top = extension.versions.compositor_tree(scene)
+    top.links.new(second.outputs["Image"], extension.versions.output_socket(top))
+    top.nodes.remove(first)
+    same(render(scene, 6, tmp_path), baked[1][6])
+
+
+def test_undoing_a_new_node_and_redoing_it(extension, scene, picture, baked, tmp_path):
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.stillwater.add_node("EXEC_DEFAULT", True)
+    bpy.ops.ed.undo()
+    count = lambda: len(extension.compositor.tree.nodes_of(bpy.context.scene, bpy.context.scene.stillwater.pictures[0].id))  # noqa: E731
+    assert count() == 1
+    bpy.ops.ed.redo()
+    assert count() == 2
+    same(render(bpy.context.scene, 6, tmp_path), baked[1][6])
 
 
 def test_without_a_picture_no_node_is_offered(scene):

@@ -86,7 +86,10 @@ def test_without_its_engine_it_registers_and_says_why(extension, without_engine,
     assert extension.engine.problem() == sentence and extension.engine.version() == ""
     picture = extension.properties.arrange.add_picture(scene, "Lake")
     assert picture.name == "Lake"
-    assert not bpy.ops.stillwater.bake.poll() and not bpy.ops.stillwater.load_recipe.poll()
+    for name in ("bake", "load_recipe", "check_frames", "free_bake", "collect", "export_recipe"):
+        assert not getattr(bpy.ops.stillwater, name).poll(), name
+    extension.bake.outdated.tick()
+    assert extension.bake.outdated.of(scene, picture).lines == ["Not baked yet"]
     with pytest.raises(ValueError, match="libopencv_core"):
         extension.engine.worker_command()
     with pytest.raises(ValueError, match="libopencv_core"):

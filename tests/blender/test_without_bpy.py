@@ -1,16 +1,18 @@
 """What needs no Blender is used without it."""
 
 import ast
+import importlib
 import importlib.util
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType, SimpleNamespace
 
 import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 PLAIN = sorted((ADDON / "recipe").glob("*.py"))
-PLAIN += [ADDON / "bake" / name for name in ("worker.py", "progress.py", "folders.py")]
+PLAIN += [ADDON / "bake" / name for name in ("worker.py", "progress.py", "folders.py", "report.py", "collect.py")]
 PLAIN += [ADDON / name for name in ("compositor/frames.py", "layers/missing.py")]
 PLAIN += [ADDON / "overlay" / name for name in ("outline.py", "shapes.py", "water.py")]
 WITH_NUMPY = [ADDON / f"strokes/{name}.py" for name in ("control_points", "curves", "lines", "projection", "roles")]
@@ -24,7 +26,17 @@ def load(path: Path):
     return module
 
 
+def load_from_its_room(name: str):
+    """A module that uses others of its room, in a package of these alone."""
+    package = ModuleType("plain_room")
+    package.__path__ = [str((ADDON / name).parent)]
+    sys.modules["plain_room"] = package
+    return importlib.import_module(f"plain_room.{Path(name).stem}")
+
+
 frames = load(ADDON / "compositor/frames.py")
+report = load(ADDON / "bake/report.py")
+progress = load_from_its_room("bake/progress.py")
 
 
 def imported(path: Path) -> set[str]:
@@ -93,3 +105,74 @@ def test_a_missing_frame_is_sent_to_the_nearest(there):
         shown = frame - 5 + 1 + offset
         assert shown in there and abs(shown - frame) == min(abs(other - frame) for other in there)
     assert 5 in changes and (len(changes) == 1) == (there == [5, 6, 7, 8])
+
+
+def test_ranges_are_written_short():
+    assert frames.spans([1, 2, 3, 4, 7, 9, 10]) == "1-4,7,9-10"
+    assert frames.spans([]) == "" and frames.spans([-2, -1]) == "-2--1"
+
+
+def span(first, last, state, *why):
+    return SimpleNamespace(first=first, last=last, state=state, why=why)
+
+
+REPORTS = [
+    ([span(1, 120, "ready")], {}, "ready", ["All 120 frames are ready"]),
+    ([span(5, 5, "ready")], {}, "ready", ["The frame is ready"]),
+    ([span(1, 9, "missing")], {}, "not baked", ["Not baked yet"]),
+    ([span(1, 8, "ready"), span(9, 9, "missing")], {}, "frames missing", ["Missing, the nearest is shown: frame 9"]),
+    (
+        [span(1, 39, "ready"), span(40, 120, "stale")],
+        {"wind changed": [(40, 120)]}, "out of date", ["Wind changed: frames 40-120"],
+    ),
+    (
+        [span(1, 1, "stale"), span(2, 2, "missing")],
+        {"wind changed": [(1, 1)]}, "out of date", ["Wind changed: frame 1", "Missing, the nearest is shown: frame 2"],
+    ),
+    (
+        [span(1, 9, "stale")],
+        {"a changed": [(1, 1), (3, 3), (5, 6), (8, 8), (9, 9)]},
+        "out of date", ["A changed: frames 1, 3, 5-6, 2 more"],
+    ),
+    (
+        [span(1, 9, "stale")],
+        {f"{n} changed": [(1, 9)] for n in range(8)},
+        "out of date", [*(f"{n} changed: frames 1-9" for n in range(6)), "And 2 more changes"],
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("spans, reasons, words, lines", REPORTS)
+def test_what_is_out_of_date_in_words(spans, reasons, words, lines):
+    found = report.report(spans, reasons)
+    assert (found.words, found.lines) == (words, lines)
+    assert found.is_ready == (words == "ready")
+    assert {frame: found.at(frame) for span in spans for frame in (span.first, span.last)} == {
+        frame: span.state for span in spans for frame in (span.first, span.last)
+    }
+
+
+def test_what_can_t_be_said_is_a_sentence():
+    found = report.Report(problem="picture: none.png: there is no such file")
+    assert (found.words, found.lines, found.is_ready) == ("", ["picture: none.png: there is no such file"], False)
+
+
+def test_the_time_left_follows_from_the_frames_that_were_rendered():
+    now = [100.0]
+    bake = progress.Progress(now=lambda: now[0])
+    frame = lambda number, **more: bake.take({"event": "frame", "frame": number, "of": 10, **more})  # noqa: E731
+    assert bake.left() == ""
+    frame(1, seconds=0.001, kept=True)
+    assert bake.left() == ""  # kept ones say nothing
+    frame(2, seconds=20)
+    frame(3, seconds=40)
+    assert bake.left() == "4 min left"  # 7 x 30 s
+    now[0] += 60
+    assert bake.left() == "2 min left"
+    now[0] += 600
+    assert bake.left() == "1 s left"
+    bake.cancelled = True
+    assert bake.left() == ""
+    said = [progress.duration(seconds) for seconds in (0, 59, 60, 3599, 4800)]
+    assert said == ["1 s", "59 s", "1 min", "1 h 0 min", "1 h 20 min"]
+    frame(4, seconds="soon")  # no number: nothing breaks

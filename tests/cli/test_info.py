@@ -1,5 +1,6 @@
 """`info`: what will be computed, what is there, and how much memory it takes."""
 
+import json
 import os
 import re
 import subprocess
@@ -27,6 +28,18 @@ def test_before_and_after(scene, tmp_path, command):
     after = facts(command("info", path))
     assert after["folder"] == f"{tmp_path}/frames: 3 of 6 frames are there and up to date"
     assert after["cache"].startswith(f"{tmp_path}/.stillwater-cache: the layers are cut")
+
+
+def test_what_is_out_of_date_and_why(scene, command):
+    command("render", scene())
+    path = scene(lambda recipe: recipe["wind"].update(speed={"first": 1, "values": [8, 8, 8, 8, 3]}))
+    done = command("info", path)
+    assert facts(done)["stale"] == "wind changed: 4 to 6" and ": 3 of 6 frames are there" in facts(done)["folder"]
+    told = json.loads(command("info", path, "--json").stdout)
+    stale = {"first": 4, "last": 6, "state": "stale", "why": ["wind changed"]}
+    assert told["spans"] == [{"first": 1, "last": 3, "state": "ready", "why": []}, stale]
+    assert (told["frames"], told["size"], told["layers"][1]["name"]) == ([1, 6], [48, 36], "reflection")
+    assert told["memory"] > 1e8 and told["cache"]["cut"]
 
 
 def test_the_layers(scene, command):

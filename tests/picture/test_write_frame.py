@@ -64,7 +64,7 @@ def linear(premultiplied):
 def expected_formats(colour):
     formats = {f"{layer}{c}": colour for layer in ("", "Stillwater.Combined.") for c in "RGBA"}
     formats |= {f"Stillwater.Flow.{c}": "float" for c in "XYZ"}
-    return formats | {"Stillwater.Matte.V": colour} | {f"tree.{c}": colour for c in "RGBA"}
+    return formats | {"Stillwater.Matte.V": colour} | {f"tree.Combined.{c}": colour for c in "RGBA"}
 
 
 @needs_oiiotool
@@ -85,7 +85,7 @@ def test_values_in_a_half_file(tmp_path):
     path = tmp_path / "frame.exr"
     write(path)
     planes = planes_of(path, list(expected_formats("half")))
-    for layer, image in (("", IMAGE), ("Stillwater.Combined.", IMAGE), ("tree.", LAYER)):
+    for layer, image in (("", IMAGE), ("Stillwater.Combined.", IMAGE), ("tree.Combined.", LAYER)):
         for c, name in enumerate("RGBA"):
             np.testing.assert_allclose(
                 planes[f"{layer}{name}"], linear(image)[..., c], rtol=2**-11 + 1e-5, atol=2**-24
@@ -211,16 +211,17 @@ def test_layer_names():
     assert given[:4] == ["boat", "a%2Eb", "tab%09here", "50%25"]
     assert given[4:6] == ["x" * 63, "x" * 61 + "~2"]
     assert given[6:] == ["ä" * 31, "boat~2"]
+    assert engine.layer_names(["Stillwater", "stillwater"]) == ["Stillwater~2", "stillwater"]
     with pytest.raises(ValueError, match="^layers: an empty name is not a layer's name$"):
         engine.layer_names(["boat", ""])
 
 
 def test_names_of_layers_stay_apart_in_the_file(tmp_path):
     engine.write_frame(str(tmp_path / "f.exr"), IMAGE, layers=[("a.b", LAYER), ("x" * 70, IMAGE), ("x" * 71, LAYER)])
-    np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "a%2Eb.A"), LAYER[..., 3], rtol=2**-10)
-    np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "x" * 63 + ".A"), IMAGE[..., 3], rtol=2**-10)
+    np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "a%2Eb.Combined.A"), LAYER[..., 3], rtol=2**-10)
+    np.testing.assert_allclose(engine.read_matte(str(tmp_path / "f.exr"), "x" * 63 + ".Combined.A"), IMAGE[..., 3], rtol=2**-10)
     np.testing.assert_allclose(
-        engine.read_matte(str(tmp_path / "f.exr"), "x" * 61 + "~2.A"), LAYER[..., 3], rtol=2**-10
+        engine.read_matte(str(tmp_path / "f.exr"), "x" * 61 + "~2.Combined.A"), LAYER[..., 3], rtol=2**-10
     )
 
 

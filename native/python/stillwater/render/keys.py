@@ -18,7 +18,7 @@ from .resolve import Now, Timeline
 ENGINES = {
     "picture": 1,
     "layers": 4,
-    "frame": 3,
+    "frame": 4,
     "wind": 1,
     "still": 1,
     "sway": 1,
@@ -36,7 +36,7 @@ def hashed(facts) -> str:
 def stack_key(recipe: Recipe, digests: dict[str, str]) -> str:
     """Of the layers cut out of the picture. `digests`: the hash of each file the recipe names."""
     layers = [
-        {"matte": _matte(layer.matte, digests), "fill": _fill(layer.fill, digests), "feather": layer.feather}
+        {"matte": matte_facts(layer.matte, digests), "fill": fill_facts(layer.fill, digests), "feather": layer.feather}
         for layer in recipe.layers
     ]
     layers[-1]["fill"] = None  # nothing lies behind the last layer
@@ -63,7 +63,7 @@ class FrameKeys:
         self._drifts_in_loop = recipe.loop and Drift in kinds
         motions = {kind.__struct_config__.tag for kind in kinds} | ({"wind"} if self._has_time else set())
         output = recipe.output
-        self._fixed = {
+        self.fixed = {
             "stack": stack,
             "size": size,
             "scale": scale,
@@ -78,7 +78,7 @@ class FrameKeys:
     def of(self, frame: int) -> str:
         """The key of one frame; it reads its own moment, and for the flow the next one."""
         now, after = self._timeline.at(frame), self._timeline.at(frame + 1)
-        return hashed({**self._fixed, "now": self._read(now), "after": self._read(after)})
+        return hashed({**self.fixed, "now": self._read(now), "after": self._read(after)})
 
     def _read(self, now: Now):
         layers = {
@@ -135,7 +135,8 @@ def _versions(*engines: str) -> dict[str, int]:
     return {engine: ENGINES[engine] for engine in engines}
 
 
-def _matte(matte, digests):
+def matte_facts(matte, digests: dict[str, str]):
+    """What a matte is, its file by what it holds."""
     if matte is None:
         return None
     if isinstance(matte, FileMatte):
@@ -143,7 +144,8 @@ def _matte(matte, digests):
     return ["labels", digests[matte.labels], matte.value]
 
 
-def _fill(fill, digests):
+def fill_facts(fill, digests: dict[str, str]):
+    """How a hole is filled, a file by what it holds."""
     if isinstance(fill, FileFill):
         return ["file", digests[fill.file]]
     return ["push-pull"] if isinstance(fill, ExemplarFill) else ["none"]

@@ -21,6 +21,7 @@ from .keys import FrameKeys
 from .lock import Lock
 from .movie import Movie
 from .prepare import LARGEST_SIDE, Sources, boxes_of, check_view, cut, filled_otherwise
+from .reads import Reads, mark, read_mark
 from .renderer import Renderer, eight_bit
 from .resolve import Timeline
 
@@ -55,6 +56,7 @@ class Job:
         self.sources = Sources(document, self.cache)
         self.size = frame_size(self.sources.size, self.scale)
         self.keys = FrameKeys(self.timeline, self.sources.key, self.sources.size, self.scale)
+        self.reads = Reads(self.timeline, self.sources.digests, self.keys.fixed)
         self.stack: Prepared | None = None if order.fresh else self.cache.find(self.sources.key)
         self.images = None
         self.boxes: list = []  # of the layers in the picture; check_files() finds them
@@ -95,10 +97,11 @@ class Job:
     def stands(self, frame: int, key: str) -> bool:
         """Whether the frame's file is there and all that it reads is as it was."""
         path = self.path(frame)
-        return path.exists() and engine.read_frame_key(str(path)) == key
+        return path.exists() and read_mark(path)[0] == key
 
     def write(self, frame: int, made, key: str) -> None:
         output = self.recipe.output
+        kept = mark(key, self.reads.of(frame))
         try:
             engine.write_frame(
                 str(self.path(frame)),
@@ -106,7 +109,7 @@ class Job:
                 made.flow,
                 made.matte,
                 layers=self._own_layers(made) if output.layers else [],
-                options=engine.FrameOptions(half=output.depth == "half", compression=output.compression, key=key),
+                options=engine.FrameOptions(half=output.depth == "half", compression=output.compression, key=kept),
             )
         except engine.FileError as error:
             left = shutil.disk_usage(self.folder).free

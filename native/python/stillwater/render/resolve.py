@@ -78,6 +78,10 @@ class Timeline:
         layers = zip(self._opacities, self._motions, strict=True)
         return Now(self._moment(frame), tuple(LayerNow(opacity.at(frame), motion(frame)) for opacity, motion in layers))
 
+    def way(self, frame: int) -> tuple[float, float, float]:
+        """The wind's way since frame 1 (right, away), and to the right in one loop, m/s x frames."""
+        return self._along.integral(frame), self._away.integral(frame), self._along.over_loop()
+
     def warnings(self) -> list[str]:
         """A sentence for each animated number that must be blended to close the loop."""
         return [] if self.loop is None else list(_blended(self.recipe, self.loop))
