@@ -28,7 +28,10 @@ over: list = []  # called with each tree whose bake is over
 
 
 def describe(scene, picture, folder: Path, frames: range | None = None) -> dict:
-    """The picture's recipe, its paths relative to `folder`. `frames`: where animated numbers are asked for, else all."""
+    """The picture's recipe, its paths relative to `folder`.
+
+    `frames`: where animated numbers are asked for, instead of all that the engine reads.
+    """
     data = scene.animation_data
     animation = Animation(
         scene,

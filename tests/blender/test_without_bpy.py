@@ -12,7 +12,8 @@ import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 PLAIN = sorted((ADDON / "recipe").glob("*.py"))
-PLAIN += [ADDON / name for name in ("bake/worker.py", "bake/progress.py", "bake/report.py", "bake/collect.py", "compositor/frames.py")]
+PLAIN += [ADDON / f"bake/{name}.py" for name in ("worker", "progress", "report", "collect")]
+PLAIN += [ADDON / "compositor/frames.py"]
 
 
 def load(path: Path):
