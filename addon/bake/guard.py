@@ -5,9 +5,9 @@ Blender has evaluated the nodes before it comes to a frame: what is changed in t
 files at once. So where a render bakes, the node is made ready when the render begins, with at least one frame, and does
 not send missing frames to the nearest until the render has ended.
 
-Where there is a window, Blender calls render handlers in the render's own thread. There nothing of Blender's is touched:
-a wish is left to a timer of the main thread, and only who wants frames baked first waits for it. Should the main
-thread be waiting for the render itself, its timer is silent: then the render goes on with the frames there are. In
+Where there is a window, Blender calls render handlers in the render's own thread. There nothing of Blender's is
+touched: a wish is left to a timer of the main thread, and only who wants frames baked first waits for it. Should the
+main thread be waiting for the render itself, its timer is silent: then the render goes on with the frames there are. In
 background, or from a script, the main thread renders, and bakes by itself.
 """
 

@@ -29,7 +29,7 @@ class STILLWATER_PG_frames(bpy.types.PropertyGroup):
     )
     share: FloatProperty(name="Progress", description="Of the bake (0..1)", min=0, max=1, options=set())
     left: StringProperty(name="Time Left", description="Of the bake", options=set())
-    holds: BoolProperty(default=True, options={"HIDDEN"})  # a missing frame shows the nearest; off in a render that bakes
+    holds: BoolProperty(default=True, options={"HIDDEN"})  # missing frames show the nearest; not in a render that bakes
     there: StringProperty(options={"HIDDEN"})  # the frames that the node shows, as ranges: 1-4,7
     message: StringProperty(name="Message", description="What the worker does, or why it gave up", options=set())
     warning: StringProperty(name="Warning", description="What the worker warned of", options=set())

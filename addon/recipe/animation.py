@@ -62,5 +62,9 @@ def facts_of(curve) -> list:
     for modifier in curve.modifiers:
         kinds = [kind for kind in modifier.bl_rna.properties if kind.type in PLAIN]
         values = [getattr(modifier, kind.identifier) for kind in kinds]
-        facts.append([list(value) if hasattr(value, "__len__") and not isinstance(value, str) else value for value in values])
+        facts.append([list(value) if _is_array(kind) else value for kind, value in zip(kinds, values, strict=True)])
     return facts
+
+
+def _is_array(kind) -> bool:
+    return getattr(kind, "is_array", False)

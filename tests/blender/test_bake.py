@@ -167,7 +167,8 @@ def test_a_part_of_the_frames_can_be_baked(scene, worker, saved, kind, options):
 
 def test_visible_frames_are_those_of_a_timeline(extension, scene):
     """The window of a Blender without one has areas, and a timeline among them."""
-    region = SimpleNamespace(type="WINDOW", width=100, view2d=SimpleNamespace(region_to_view=lambda x, y: (5.6 + x / 50, y)))
+    view = SimpleNamespace(region_to_view=lambda x, y: (5.6 + x / 50, y))
+    region = SimpleNamespace(type="WINDOW", width=100, view2d=view)
     area = SimpleNamespace(type="DOPESHEET_EDITOR", regions=[region])
     context = SimpleNamespace(scene=scene, window=SimpleNamespace(screen=SimpleNamespace(areas=[area])))
     assert extension.bake.ranges.frames_of(context, "VISIBLE") == (6, 8)
@@ -203,9 +204,8 @@ def test_sidebars_and_status_bars_are_drawn_anew(extension, monkeypatch):
     region = lambda kind: SimpleNamespace(type=kind, tag_redraw=lambda: drawn.append(kind))  # noqa: E731
     areas = [SimpleNamespace(type=kind, regions=[region("UI"), region("WINDOW")]) for kind in ("VIEW_3D", "PROPERTIES")]
     clear = SimpleNamespace(status_text_set=drawn.append)
-    windows = [
-        SimpleNamespace(screen=SimpleNamespace(areas=areas), workspace=clear, modal_operators=modal) for modal in ([], [1])
-    ]
+    screen = SimpleNamespace(areas=areas)
+    windows = [SimpleNamespace(screen=screen, workspace=clear, modal_operators=modal) for modal in ([], [1])]
     context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows), temp_override=lambda **_: nullcontext())
     monkeypatch.setattr(extension.ui.redraw, "bpy", SimpleNamespace(context=context))
     extension.ui.redraw.panels()

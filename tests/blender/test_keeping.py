@@ -1,4 +1,4 @@
-"""A bake is freed, collected for a farm, moved with its file; a recipe is written that renders the same without Blender."""
+"""A bake is freed, collected for a farm, moved with its file; an exported recipe renders the same without Blender."""
 
 import json
 import shutil

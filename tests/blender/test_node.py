@@ -244,9 +244,10 @@ def test_a_duplicated_node_shows_the_same_and_goes_alone(extension, scene, pictu
 
 def test_undoing_a_new_node_and_redoing_it(extension, scene, picture, baked, tmp_path):
     bpy.ops.ed.undo_push(message="before")
+    identifier = picture.id
     bpy.ops.stillwater.add_node("EXEC_DEFAULT", True)
     bpy.ops.ed.undo()
-    count = lambda: len(extension.compositor.tree.nodes_of(bpy.context.scene, bpy.context.scene.stillwater.pictures[0].id))  # noqa: E731
+    count = lambda: len(extension.compositor.tree.nodes_of(bpy.context.scene, identifier))  # noqa: E731
     assert count() == 1
     bpy.ops.ed.redo()
     assert count() == 2

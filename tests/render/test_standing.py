@@ -35,10 +35,11 @@ def test_a_keyed_wind_names_the_frames_it_changed(rendered, scene):
 
 def test_what_is_stale_is_what_a_bake_renders_anew(rendered, scene):
     """For each kind of change, the frames that are named are those that a bake does not keep."""
+    slowed = {"first": 1, "values": [[0.7, 0.2]] * 3 + [[0, 0]]}
     for change in (
         lambda recipe: recipe["layers"][2]["motion"].update(amount={"first": 3, "values": [3, 4, 3]}),
-        lambda recipe: recipe["layers"][4]["motion"].update(velocity={"first": 1, "values": [[0.7, 0.2]] * 3 + [[0, 0]]}),
-        lambda recipe: recipe["output"].update(depth="float") if "output" in recipe else recipe.update(output={"depth": "float"}),
+        lambda recipe: recipe["layers"][4]["motion"].update(velocity=slowed),
+        lambda recipe: recipe.update(output={"depth": "float"}),
     ):
         changed = scene(change)
         named = {frame.first for frame in standing(load(changed)).all() if frame.state == "stale"}

@@ -79,7 +79,8 @@ class Reads:
         else:
             motions = [state.motion for state in states]
         seen = [state.opacity for state in states] if layer.visible else None
-        return {"motion": _digest([motions, layer.follows, water, self._timeline.endless[i]]), "visibility": _digest(seen)}
+        motion = _digest([motions, layer.follows, water, self._timeline.endless[i]])
+        return {"motion": motion, "visibility": _digest(seen)}
 
     def _wind(self, frame: int):
         """The wind as the artist set it: its way in m/s x frames, which another frame rate does not change."""
@@ -128,8 +129,9 @@ def reasons(before: Parts, now: Parts) -> list[str]:
     if was.keys() == are.keys() and before.get("order") != now["order"]:
         found.append("order of the layers changed")
     for name, parts in are.items():
-        told = [part for part in parts if in_time or part != "motion"]
-        found += [f"{part} of {name} changed" for part in told if was.get(name, {}).get(part, parts[part]) != parts[part]]
+        told = {part: digest for part, digest in parts.items() if in_time or part != "motion"}
+        then = was.get(name, {})
+        found += [f"{part} of {name} changed" for part, digest in told.items() if then.get(part, digest) != digest]
     return found or ["something it reads changed"]
 
 

@@ -61,7 +61,8 @@ def standing(
 ) -> Standing:
     """Looks a recipe's frames up without opening its pictures: as fast as their files' hashes are known.
 
-    `cache`: one of the recipe's folder, which remembers them. Throws RecipeError and Refused with what is wrong with the recipe or its files' names.
+    `cache`: one of the recipe's folder, which remembers them. Throws RecipeError and Refused with what is wrong with the
+    recipe or its files.
     """
     recipe = document.recipe
     first, last = frame_range(recipe, order)
@@ -73,7 +74,8 @@ def standing(
     reads = Reads(timeline, sources.digests, keys.fixed)
     if cache.folder.exists():
         cache.keep_digests()
-    return Standing(first, last, order.folder or document.locate(recipe.output.folder), recipe.output.name, keys, reads, read)
+    folder = order.folder or document.locate(recipe.output.folder)
+    return Standing(first, last, folder, recipe.output.name, keys, reads, read)
 
 
 def joined(frames: Iterable[Frames]) -> list[Frames]:
