@@ -6,7 +6,8 @@ from math import ceil, floor, hypot, log10, radians, tan
 
 Point = tuple[float, float]
 DISTANCES = [step * 10.0**power for power in range(-2, 6) for step in (1, 2, 5)]  # m
-LINES = 24  # to each side, that run away from the eye
+LINES = 12  # to each side, that run away from the eye
+CLOSEST = 0.015  # of the picture's height: lines across that are nearer to the horizon are left out
 
 
 class WaterPlane:
@@ -69,7 +70,7 @@ def grid(plane: WaterPlane, size: tuple[int, int]) -> list[tuple[Point, Point]]:
         level = plane.seen(0, away)
         if away >= nearest and level is not None:
             y = plane.level(level)[1]
-            if y - plane.horizon > 1:  # beyond, they are one with the horizon
+            if y - plane.horizon > CLOSEST * size[1]:
                 lines.append((plane.picture((-1e6, y)), plane.picture((1e6, y))))
     step = _rounded(max(nearest, 1e-3) / 2)
     for i in range(-LINES, LINES + 1):
