@@ -46,16 +46,12 @@ class Recorder:
         properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
         assert icon in ICONS
         self.operators.append(name)
-        self.texts.append(text)
+        self.texts += [text] if text else []
         self.made.append(SimpleNamespace(**{kind.identifier: None for kind in properties}))
         return self.made[-1]
 
-    def operator_menu_enum(self, name, property):
-        self.operator(name)
-
     def operator_menu_enum(self, name, property, text="", icon="NONE"):
         given = self.operator(name, text, icon)
-        self.operators.pop()
         assert hasattr(given, property)
         return given
 

@@ -161,7 +161,7 @@ def test_a_part_of_the_frames_can_be_baked(scene, worker, saved, kind, options):
     scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 6, 20
     scene.frame_set(7)
     assert bpy.ops.stillwater.bake(range=kind) == {"FINISHED"}
-    assert (saved / "options.txt").read_text() == f"--progress json --parent{options}"
+    assert (saved / "options.txt").read_text() == f"--progress json --parent --cache-limit 4{options}"
     assert json.loads((saved / "recipe.json").read_text())["frames"] == [5, 8]  # a loop's period stays
 
 

@@ -273,7 +273,7 @@ def test_the_tool_says_what_a_stroke_does(scene, picture, layers, place):
     assert " ".join(idle.texts) == "Choose what to draw in the sidebar, tab Stillwater" and idle.operators == []
     bpy.ops.stillwater.draw_stroke(role="sway_line")
     tool.draw_settings(context, busy, None)
-    assert " ".join(filter(None, busy.texts)) == status() and busy.operators == ["stillwater.stop_drawing"]
+    assert " ".join(busy.texts) == status() and busy.operators == ["stillwater.stop_drawing"]
 
 
 def test_the_panel_in_edit_mode_changes_roles(picture, layers, selected):

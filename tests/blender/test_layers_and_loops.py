@@ -62,7 +62,7 @@ def test_layers_come_and_go_and_links_of_the_others_stay(extension, painted, tmp
     picture.output.layers = False
     bpy.ops.stillwater.bake()
     assert outputs(extension) == ["Image", "Alpha", "Flow", "Matte"]
-    assert sorted(n.name for n in picture.tree.nodes if n.bl_idname == "CompositorNodeImage") == ["Frames"]
+    assert sorted(n.name for n in picture.tree.nodes if n.bl_idname == "CompositorNodeImage") == ["Frames", "Picture"]
     picture.layers[1].visible = True
     same(render(scene, 6, tmp_path), read_frame(painted / "frame_0006.exr"))
 

@@ -119,4 +119,4 @@ def test_the_view_says_that_water_needs_a_horizon(picture):
     view = next(cls for cls in registered("view_3d") if cls.bl_label == "View")
     assert draw(view).texts == []
     picture.layers[0].motion.type = "ripple"
-    assert " ".join(draw(view).texts) == "Say where the horizon is: turn it on"
+    assert " ".join(draw(view).texts) == "Draw the horizon, or turn it on"
