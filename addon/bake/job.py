@@ -163,14 +163,26 @@ def settle() -> None:
 
     Frames that lie on disk now, whatever happened since the file was saved, are shown.
     """
-    for tree in bpy.data.node_groups:
-        if tree.bl_idname != "CompositorNodeTree" or not tree.stillwater.picture or tree.library is not None:
-            continue
+    for tree in _trees():
         if tree.stillwater.state == "running" and not running(tree):
             tree.stillwater.state, tree.stillwater.message = "cancelled", "Interrupted; the frames made so far are kept"
-        if not running(tree) and (node.changed_on_disk(tree) or not tree.stillwater.holds):
+        if not running(tree) and not tree.stillwater.holds:
             tree.stillwater.holds = True
             node.show(tree)
+        elif node.changed_on_disk(tree):
+            node.show(tree)
+
+
+def before_undo() -> None:
+    """What the timers put on the trees is taken off them; settle() brings it back."""
+    for tree in _trees():
+        node.let_go(tree)
+
+
+def _trees() -> list:
+    """The trees of all pictures of this file."""
+    groups = [tree for tree in bpy.data.node_groups if tree.bl_idname == "CompositorNodeTree" and tree.library is None]
+    return [tree for tree in groups if tree.stillwater.picture]
 
 
 def _end(uid: int) -> None:

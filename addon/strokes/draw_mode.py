@@ -114,7 +114,7 @@ def _is_drawing(scene) -> bool:
 def _holder(context, picture):
     """The picture's grease-pencil object, made where there is none, and shown."""
     if picture.plane is None:
-        raise ValueError(f"{picture.name}: has no plane in the scene to draw on; open its picture again")
+        raise ValueError(f"{picture.name}: has no plane in the scene to draw on; make it anew with Set Up in Scene")
     holder = picture.strokes
     if gp_layers.data_of(picture) is None:
         name = f"{picture.name} Strokes"

@@ -22,7 +22,7 @@ class OfRole:
         if picture is None:
             cls.poll_message_set("The scene has no Stillwater picture yet")
         elif picture.plane is None:
-            cls.poll_message_set("The picture has no plane in the scene; open its picture again")
+            cls.poll_message_set("The picture has no plane in the scene; make it anew with Set Up in Scene")
         else:
             return True
         return False

@@ -57,7 +57,8 @@ def said_of(extension, scene, picture) -> list[str]:
     missing, replaced = extension.layers.missing, extension.strokes.replaced
     layers = enumerate(picture.layers)
     said = [sentence for i, layer in layers for sentence in missing.of(picture, i, replaced(scene, picture, layer))]
-    return said if picture.layers else ["Add a layer"]
+    whole = extension.pictures.place.is_whole(scene, picture)
+    return [*said, *([] if picture.layers else ["Add a layer"]), *([] if whole else ["Set Up in Scene"])]
 
 
 def _of_tree(picture) -> None:

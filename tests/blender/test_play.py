@@ -222,6 +222,19 @@ def test_undo_and_redo_leave_the_right_frame(extension, scene, shown):
         np.testing.assert_array_equal(plane_pixels(picture), wanted)
 
 
+def test_undo_forgets_an_image_that_came_after_the_last_step(extension, scene, live):
+    """Blender frees it, and keeps the plane, which is the same in both steps."""
+    bpy.ops.ed.undo_push(message="before")
+    live.wind.speed = 5
+    bpy.ops.ed.undo_push(message="slower")
+    scene.frame_set(6)
+    stage.wait(extension)
+    assert not shows_original(live)
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.redo):
+        step()
+        assert bpy.context.scene.stillwater.pictures[0].plane.data in list(bpy.data.images)
+
+
 def test_an_image_that_was_removed_is_made_again(extension, scene, shown):
     before = plane_pixels(shown)
     bpy.data.images.remove(shown.plane.data)
