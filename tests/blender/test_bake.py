@@ -308,7 +308,7 @@ def test_undo_after_a_bake_that_ended_later_keeps_its_frames(extension, scene, w
     """The image of the frames came after the last step: Blender frees it, and keeps the tree, the same in both steps."""
     worker("plain")
     extension.bake.job.start(scene, scene.stillwater.pictures[0])
-    for speed in (9, 10):
+    for speed in (9, 8, 7, 6):
         scene.stillwater.pictures[0].wind.speed = speed
         bpy.ops.ed.undo_push(message="wind")
     until(extension, lambda: not extension.bake.job._jobs)
