@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 
 from .. import engine
@@ -32,7 +33,7 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
 
     def act(self, context, picture):
         if picture.tree is not None and job.running(picture.tree):
-            raise ValueError(f"{picture.name}: is being baked; cancel it first")
+            raise ValueError(rpt_("{name}: is being baked; cancel it first").format(name=picture.name))
         gone, folder = frames_of(picture), places.folder_of(picture)
         for path in gone:
             path.unlink()
@@ -46,7 +47,8 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
             state.state, state.message, state.warning, state.left, state.share = "none", "", "", "", 0
             tree.show(picture.tree)
         outdated.look(context.scene, picture, play=False)
-        self.report({"INFO"}, f"{len(gone)} frame{'' if len(gone) == 1 else 's'} deleted")
+        sentence = rpt_("1 frame deleted") if len(gone) == 1 else rpt_("{count} frames deleted")
+        self.report({"INFO"}, sentence.format(count=len(gone)))
         return {"FINISHED"}
 
 
@@ -63,7 +65,7 @@ class _ToFile(OfPicture):
     def path(self) -> Path:
         """Where to write. Throws ValueError where that was not said."""
         if not self.filepath:
-            raise ValueError("No file is named to write to")
+            raise ValueError(rpt_("No file is named to write to"))
         return Path(bpy.path.abspath(self.filepath)).absolute()
 
 
@@ -85,8 +87,8 @@ class STILLWATER_OT_collect(_ToFile, bpy.types.Operator):
         target, folder = self.path(), places.folder_of(picture)
         recipe = job.describe(context.scene, picture, folder)
         engine.parse(recipe, folder)  # what is wrong is said here, not on the farm
-        written = collect.collect(recipe, folder, target, frames_of(picture) if self.frames else [])
-        self.report({"INFO"}, f"{target}: {len(written)} files collected")
+        written = collect.collect(recipe, folder, target, frames_of(picture) if self.frames else [], rpt_)
+        self.report({"INFO"}, rpt_("{target}: {count} files collected").format(target=target, count=len(written)))
         return {"FINISHED"}
 
 
@@ -103,7 +105,7 @@ class STILLWATER_OT_export_recipe(_ToFile, bpy.types.Operator):
     def act(self, context, picture):
         path = self.path()
         engine.parse(job.describe(context.scene, picture, path.parent), path.parent)
-        self.report({"INFO"}, f"Written: {job.write_recipe(context.scene, picture, path)}")
+        self.report({"INFO"}, rpt_("Written: {path}").format(path=job.write_recipe(context.scene, picture, path)))
         return {"FINISHED"}
 
 

@@ -1,6 +1,8 @@
 """Bake, cancel, check frames."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from .. import engine
@@ -19,7 +21,7 @@ class OfPicture:
         if engine.problem():
             cls.poll_message_set(engine.problem())
         elif context.scene.stillwater.active() is None:
-            cls.poll_message_set("The scene has no Stillwater picture yet")
+            cls.poll_message_set(tip_("The scene has no Stillwater picture yet"))
         else:
             return True
         return False
@@ -31,7 +33,7 @@ class OfPicture:
             return settings.active()
         found = next((picture for picture in settings.pictures if picture.name == self.picture), None)
         if found is None:
-            raise ValueError(f"{self.picture}: the scene has no picture of this name")
+            raise ValueError(rpt_("{picture}: the scene has no picture of this name").format(picture=self.picture))
         return found
 
     def execute(self, context):
@@ -93,7 +95,7 @@ class STILLWATER_OT_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if not job.running_trees():
-            cls.poll_message_set("Nothing is being baked")
+            cls.poll_message_set(tip_("Nothing is being baked"))
             return False
         return True
 

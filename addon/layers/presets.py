@@ -1,6 +1,8 @@
 """Choosing, saving and removing presets of motions and of the wind."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty, StringProperty
 
 from ..properties import curves
@@ -21,7 +23,7 @@ class STILLWATER_OT_apply_preset(OfPicture, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        return preset_files.description_of(properties.filepath) or cls.__doc__
+        return preset_files.description_of(properties.filepath) or tip_(cls.__doc__)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -37,7 +39,9 @@ class STILLWATER_OT_apply_preset(OfPicture, bpy.types.Operator):
             return {"CANCELLED"}
         kept = sorted(set().union(*map(curves.moved, groups)) & set(preset.numbers))
         if kept:
-            self.report({"WARNING"}, f"{', '.join(kept).capitalize()}: keyed or driven, which stays as it was")
+            sentence = rpt_("{names}: keyed or driven, which stays as it was")
+            names = [rpt_(groups[0].bl_rna.properties[name].name) for name in kept]
+            self.report({"WARNING"}, sentence.format(names=", ".join(names)))
         return {"FINISHED"}
 
 
@@ -62,7 +66,7 @@ class STILLWATER_OT_save_preset(OfPicture, bpy.types.Operator):
         except FAILURES as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"Saved {path}")
+        self.report({"INFO"}, rpt_("Saved {path}").format(path=path))
         return {"FINISHED"}
 
 
@@ -83,7 +87,7 @@ class STILLWATER_OT_remove_preset(bpy.types.Operator):
         path = next((path for path in own if str(path) == self.filepath and not preset_files.is_shipped(path)), None)
         try:
             if path is None:
-                raise ValueError(f"{self.filepath}: is no preset of your own")
+                raise ValueError(rpt_("{filepath}: is no preset of your own").format(filepath=self.filepath))
             path.unlink()
         except FAILURES as error:
             self.report({"ERROR"}, str(error))
@@ -139,7 +143,7 @@ class STILLWATER_PT_wind_presets(_Presets, bpy.types.Panel):
 def _meant(picture, kind: str) -> list:
     """The numbers that a preset of a motion goes to: the active layer's, and those of selected ones of that motion."""
     if picture.active_layer >= len(picture.layers):
-        raise ValueError("Select a layer first")
+        raise ValueError(rpt_("Select a layer first"))
     motions = [picture.layers[i].motion for i in chosen(picture)]
     active = picture.layers[picture.active_layer].motion
     return [getattr(motion, kind) for motion in motions if motion == active or motion.type == kind]
@@ -147,10 +151,10 @@ def _meant(picture, kind: str) -> list:
 
 def _motion_of(picture):
     if picture.active_layer >= len(picture.layers):
-        raise ValueError("Select a layer first")
+        raise ValueError(rpt_("Select a layer first"))
     motion = picture.layers[picture.active_layer].motion
     if motion.numbers() is None:
-        raise ValueError("Choose a motion first: a still layer has no numbers to save")
+        raise ValueError(rpt_("Choose a motion first: a still layer has no numbers to save"))
     return motion.type, motion.numbers()
 
 

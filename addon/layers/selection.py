@@ -1,6 +1,8 @@
 """Which layers an operator means, and what is done to all of them at once."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..properties import arrange, curves, motions
@@ -21,10 +23,10 @@ class OfPicture:
     @classmethod
     def poll(cls, context):
         if not context.scene.is_editable:
-            cls.poll_message_set("The scene belongs to another file; change it there, or make it local")
+            cls.poll_message_set(tip_("The scene belongs to another file; change it there, or make it local"))
             return False
         if context.scene.stillwater.active() is None:
-            cls.poll_message_set("Add a picture first")
+            cls.poll_message_set(tip_("Add a picture first"))
             return False
         return True
 
@@ -38,7 +40,7 @@ class OfLayers(OfPicture):
             return False
         picture = context.scene.stillwater.active()
         if picture.active_layer >= len(picture.layers):
-            cls.poll_message_set("Select a layer first")
+            cls.poll_message_set(tip_("Select a layer first"))
             return False
         return True
 
@@ -51,7 +53,7 @@ class OfSeveral(OfLayers):
         if not super().poll(context):
             return False
         if len(chosen(context.scene.stillwater.active())) < 2:
-            cls.poll_message_set("Select more layers first, by the boxes in the list")
+            cls.poll_message_set(tip_("Select more layers first, by the boxes in the list"))
             return False
         return True
 
@@ -94,7 +96,7 @@ class STILLWATER_OT_show_layers(OfLayers, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        return f"{'Show' if properties.visible else 'Hide'} all selected layers"
+        return tip_("Show all selected layers") if properties.visible else tip_("Hide all selected layers")
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -140,10 +142,12 @@ class STILLWATER_OT_copy_to_selected(OfSeveral, bpy.types.Operator):
                 for index in others:
                     _copy(picture, source, index, path)
         except (ValueError, AttributeError):
-            self.report({"ERROR"}, f"{self.path}: is not a value of a layer that can be copied")
+            self.report({"ERROR"}, rpt_("{path}: is not a value of a layer that can be copied").format(path=self.path))
             return {"CANCELLED"}
         what = "Motion" if self.path == "motion" else _kind(picture.layers[source], self.path).name
-        self.report({"INFO"}, f"{what} copied to {len(others)} layer{'s' * (len(others) != 1)}")
+        one = len(others) == 1
+        sentence = rpt_("{what} copied to 1 layer") if one else rpt_("{what} copied to {count} layers")
+        self.report({"INFO"}, sentence.format(what=rpt_(what), count=len(others)))
         return {"FINISHED"}
 
 

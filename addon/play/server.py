@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import engine, preferences
 from ..bake.worker import Worker, ending
@@ -64,7 +65,7 @@ def tick() -> float | None:
             del _open[event["id"]]
         told(event)
     if code is not None:
-        sentence = ending(code, _worker.last_words())
+        sentence = ending(code, _worker.last_words(), rpt_)
         _worker.close()
         _worker = None
         waiting = list(_open.values())

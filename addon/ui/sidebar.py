@@ -8,6 +8,7 @@ import re
 import textwrap
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 EDITORS = ("VIEW_3D", "NODE_EDITOR")
 # Of a sidebar at scale 1, pixels: what its tabs and an icon take, a character on average, its width by default.
@@ -78,7 +79,8 @@ def label(kind) -> str:
     """A property's name, with the unit that stands at the end of its description: Speed (m/s)."""
     found = re.search(r" \[([\w/]+)\]$", kind.description)
     shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
-    return f"{kind.name} ({found[1]})" if found and not shown else kind.name
+    name = iface_(kind.name)
+    return f"{name} ({found[1]})" if found and not shown else name
 
 
 def fold(layout, identifier: str, text: str, closed: bool = True):
