@@ -70,11 +70,14 @@ class _ToFile(OfPicture):
 
 
 class STILLWATER_OT_collect(_ToFile, bpy.types.Operator):
-    """Copy the picture's recipe, every file that it needs and its frames into a folder or a zip, for a farm or for
-    another machine: "python -m stillwater render recipe.json" renders there what is missing"""
+    """Its recipe, all files and its frames, for a farm: `python -m stillwater render recipe.json` there does the rest."""
 
     bl_idname = "stillwater.collect"
     bl_label = "Collect Files"
+    bl_description = (
+        "Copy the picture's recipe, every file that it needs and its frames into a folder or a zip, for a farm or"
+        ' another machine: "python -m stillwater render recipe.json" renders there what is missing'
+    )
 
     filepath: StringProperty(
         name="Folder or Zip", description="Becomes a zip where it ends with .zip, else a new folder",
@@ -98,7 +101,9 @@ class STILLWATER_OT_export_recipe(_ToFile, bpy.types.Operator):
     bl_idname = "stillwater.export_recipe"
     bl_label = "Export Recipe"
 
-    filepath: StringProperty(name="Recipe", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="Recipe", description="File to write the recipe to", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
     ending = ".json"
 

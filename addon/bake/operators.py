@@ -6,6 +6,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from .. import engine
+from ..ui import polls
 from . import job, outdated, ranges
 
 
@@ -20,11 +21,8 @@ class OfPicture:
     def poll(cls, context):
         if engine.problem():
             cls.poll_message_set(engine.problem())
-        elif context.scene.stillwater.active() is None:
-            cls.poll_message_set(tip_("The scene has no Stillwater picture yet"))
-        else:
-            return True
-        return False
+            return False
+        return polls.own_picture(cls, context)
 
     def chosen(self, context):
         """The picture that is meant. Throws ValueError."""
@@ -59,7 +57,7 @@ class STILLWATER_OT_bake(OfPicture, bpy.types.Operator):
     bl_label = "Bake"
     bl_options = {"UNDO"}  # so that undoing a later step does not take the new tree, and with it the bake, away
 
-    range: EnumProperty(name="Range", description="Which frames", items=ranges.ITEMS, options={"SKIP_SAVE"})
+    range: EnumProperty(name="Range", description="Which frames to bake", items=ranges.ITEMS, options={"SKIP_SAVE"})
     fresh: BoolProperty(name="Fresh", description="Make every frame anew", options={"SKIP_SAVE"})
     wait: BoolProperty(
         name="Wait", description="Stay until it is over, as always in background", options={"SKIP_SAVE", "HIDDEN"}

@@ -5,6 +5,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
 
 from .. import versions
+from ..ui import polls
 from . import sequence, tree
 
 
@@ -17,10 +18,7 @@ class STILLWATER_OT_add_node(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if context.scene.stillwater.active() is None:
-            cls.poll_message_set(tip_("The scene has no Stillwater picture yet"))
-            return False
-        return True
+        return polls.own_picture(cls, context)
 
     def execute(self, context):
         scene = context.scene

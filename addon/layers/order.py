@@ -94,7 +94,7 @@ class STILLWATER_OT_move_layer(OfLayers, bpy.types.Operator):
     bl_label = "Move Layer"
 
     direction: EnumProperty(
-        name="Direction",
+        name="Direction", description="Where the layers go",
         items=[
             ("UP", "Forward", "Before the next layer"),
             ("DOWN", "Back", "Behind the next layer"),

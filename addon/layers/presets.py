@@ -19,7 +19,9 @@ class STILLWATER_OT_apply_preset(OfPicture, bpy.types.Operator):
     bl_idname = "stillwater.apply_preset"
     bl_label = "Apply Preset"
 
-    filepath: StringProperty(name="File", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="File", description="File of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
 
     @classmethod
     def description(cls, context, properties):
@@ -52,9 +54,9 @@ class STILLWATER_OT_save_preset(OfPicture, bpy.types.Operator):
     bl_label = "Save Preset"
     bl_options = {"REGISTER"}
 
-    name: StringProperty(name="Name", description="Of the preset and its file", maxlen=64, options={"SKIP_SAVE"})
+    name: StringProperty(name="Name", description="Name of the preset and its file", maxlen=64, options={"SKIP_SAVE"})
     of: EnumProperty(
-        name="Of",
+        name="From", description="Whose numbers are saved",
         items=[("MOTION", "Motion", "The active layer's motion"), ("WIND", "Wind", "The picture's wind")],
     )
 
@@ -77,7 +79,9 @@ class STILLWATER_OT_remove_preset(bpy.types.Operator):
     bl_label = "Remove Preset"
     bl_options = {"REGISTER"}
 
-    filepath: StringProperty(name="File", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="File", description="File of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
 
     def invoke(self, context, event):
         return context.window_manager.invoke_confirm(self, event)

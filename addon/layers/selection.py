@@ -6,6 +6,7 @@ from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..properties import arrange, curves, motions
+from ..ui import polls
 
 MOTIONS = [(name, name.title(), "", icon, i) for i, (name, icon) in enumerate(motions.ICONS.items())]
 
@@ -22,13 +23,7 @@ class OfPicture:
 
     @classmethod
     def poll(cls, context):
-        if not context.scene.is_editable:
-            cls.poll_message_set(tip_("The scene belongs to another file; change it there, or make it local"))
-            return False
-        if context.scene.stillwater.active() is None:
-            cls.poll_message_set(tip_("Add a picture first"))
-            return False
-        return True
+        return polls.own_picture(cls, context)
 
 
 class OfLayers(OfPicture):
@@ -65,7 +60,7 @@ class STILLWATER_OT_select_layers(OfLayers, bpy.types.Operator):
     bl_label = "Select Layers"
 
     action: EnumProperty(
-        name="Action",
+        name="Action", description="Which layers are selected",
         items=[
             ("SELECT", "All", "All layers"),
             ("DESELECT", "None", "Only the active layer"),
@@ -111,7 +106,7 @@ class STILLWATER_OT_set_motion(OfLayers, bpy.types.Operator):
     bl_idname = "stillwater.set_motion"
     bl_label = "Set Motion"
 
-    type: EnumProperty(name="Motion", items=MOTIONS)
+    type: EnumProperty(name="Motion", description="What the layers do", items=MOTIONS)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -128,7 +123,7 @@ class STILLWATER_OT_copy_to_selected(OfSeveral, bpy.types.Operator):
 
     path: StringProperty(
         name="Path", default="motion",
-        description="Of the value in its layer, as motion.sway.amount; motion stands for all that makes its look",
+        description="Path of the value in its layer, as motion.sway.amount; motion stands for all that makes its look",
     )
     layer: IntProperty(name="Layer", description="Whose value is copied; -1 = the active one's", default=-1, min=-1)
 

@@ -55,7 +55,7 @@ class STILLWATER_OT_remove_waterline_point(OfBoat, bpy.types.Operator):
     bl_idname = "stillwater.remove_waterline_point"
     bl_label = "Remove Waterline Point"
 
-    index: IntProperty(name="Index", description="Of the point; -1 = the last one", default=-1, min=-1)
+    index: IntProperty(name="Index", description="Number of the point; -1 = the last one", default=-1, min=-1)
 
     def execute(self, context):
         line = self.line(context)

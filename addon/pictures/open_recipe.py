@@ -65,7 +65,9 @@ class STILLWATER_OT_load_recipe(bpy.types.Operator):
     bl_label = "Open Recipe"
     bl_options = {"REGISTER", "UNDO"}
 
-    filepath: StringProperty(name="Recipe", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="Recipe", description="File of the recipe", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
     filter_folder: BoolProperty(default=True, options={"SKIP_SAVE", "HIDDEN"})
 

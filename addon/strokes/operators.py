@@ -5,6 +5,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty, StringProperty
 
+from ..ui import polls
 from . import change, draw_mode, gp_layers, roles
 
 ITEMS = [(role.key, role.name, role.hint, role.icon, role.number) for role in roles.ROLES]
@@ -20,14 +21,12 @@ class OfRole:
 
     @classmethod
     def poll(cls, context):
-        picture = context.scene.stillwater.active()
-        if picture is None:
-            cls.poll_message_set(tip_("The scene has no Stillwater picture yet"))
-        elif picture.plane is None:
+        if not polls.own_picture(cls, context):
+            return False
+        if context.scene.stillwater.active().plane is None:
             cls.poll_message_set(tip_("The picture has no plane in the scene; make it anew with Set Up in Scene"))
-        else:
-            return True
-        return False
+            return False
+        return True
 
     def execute(self, context):
         picture, role = context.scene.stillwater.active(), roles.by_key(self.role)
