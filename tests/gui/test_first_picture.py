@@ -124,7 +124,12 @@ def test_fewer_frames_are_baked(window):
 def test_the_compositor_shows_the_node_and_its_picture(window):
     yield from window.click("Compositing")
     yield from window.until(lambda: window.has("NODE_EDITOR"), 10, "no compositor")
-    yield from window.key("HOME", at=window.box("NODE_EDITOR").middle)
     groups = [node.node_tree for node in bpy.context.scene.compositing_node_group.nodes if node.type == "GROUP"]
     assert groups == [picture().tree]
+    viewer = window.box("IMAGE_EDITOR")
+    middle = Box(viewer.middle[0] - 100, viewer.middle[1] - 50, 200, 100)
+    colourful = lambda: np.ptp(window.pixels(middle), 2).mean() > 20  # noqa: E731  an empty viewer is grey
+    yield from window.until(colourful, 30, "the viewer shows no picture")
+    yield from window.key("HOME", at=viewer.middle)
+    yield from window.key("HOME", at=window.box("NODE_EDITOR").middle)
     yield from window.screenshot("11-compositor")
