@@ -1,7 +1,7 @@
 """Which folder below `stillwater/` is which picture's. Knows nothing of Blender.
 
-`stillwater/pictures.json` says so by the pictures' permanent ids: renaming a picture moves nothing, and two files beside
-each other whose pictures have one name do not write over each other's frames.
+`stillwater/pictures.json` says so by the pictures' permanent ids: renaming a picture moves nothing, and two files
+beside each other whose pictures have one name do not write over each other's frames.
 """
 
 import json

@@ -191,4 +191,5 @@ def _viewers_of_ours(top) -> list:
 
 
 def _is_ours(node) -> bool:
-    return node.bl_idname == "CompositorNodeGroup" and node.node_tree is not None and bool(node.node_tree.stillwater.picture)
+    tree = node.node_tree if node.bl_idname == "CompositorNodeGroup" else None
+    return tree is not None and bool(tree.stillwater.picture)

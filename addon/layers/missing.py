@@ -10,6 +10,17 @@ def of(picture, index: int, drawn: set[str]) -> list[str]:
     return [*_matte(layer, index == len(picture.layers) - 1), *_motion(picture, layer, drawn)]
 
 
+def horizon(view, drawn: set[str]) -> list[str]:
+    """A sentence where the horizon is not known, which all water needs."""
+    if "use_horizon" in drawn:
+        return []
+    if not view.use_horizon:
+        return ["Draw the horizon, or turn it on in View"]
+    if tuple(view.horizon_start) == tuple(view.horizon_end):
+        return ["Draw the horizon, or place its two ends in View"]
+    return []
+
+
 def _matte(layer, last: bool) -> list[str]:
     matte, fill = layer.matte, layer.fill
     said = []
@@ -27,8 +38,8 @@ def _motion(picture, layer, drawn: set[str]) -> list[str]:
     match motion.type:
         case "sway" if tuple(motion.sway.armature_root) == tuple(motion.sway.armature_tip) and "armature_tip" not in drawn:
             return ["Draw its sway line, from where it is held to its tip"]
-        case "ripple" if not picture.view.use_horizon and "use_horizon" not in drawn:
-            return ["Draw the horizon, or place it in View"]
+        case "ripple":
+            return horizon(picture.view, drawn)
         case "bob":
             return _bob(picture, motion.bob, drawn)
     return []

@@ -37,6 +37,9 @@ class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
         layer.motion.type = preset.kind if preset else self.motion
         if preset:
             preset_files.apply(layer.motion.numbers(), preset)
+        water = [other.name for other in picture.layers if other.motion.type == "ripple"]
+        if layer.motion.type == "bob" and len(water) == 1:
+            layer.motion.bob.water = water[0]
         arrange.move_layer(picture, count, place)
         picture.active_layer = place
         return {"FINISHED"}

@@ -2,6 +2,7 @@
 
 from .. import strokes
 from ..ui import sidebar
+from . import missing
 from .presets import STILLWATER_PT_wind_presets
 
 
@@ -30,12 +31,12 @@ class _View(sidebar.OfPicture):
     def draw(self, context):
         picture = context.scene.stillwater.active()
         layout, view = self.layout, picture.view
-        water = [layer.name for layer in picture.layers if layer.motion.type == "ripple"]
-        drawn = "use_horizon" in strokes.replaced(context.scene, picture)
-        if water and not view.use_horizon and not drawn:
-            sidebar.say(context, layout, f"{water[0]} needs the horizon: draw it, or turn it on and place its ends", "ERROR")
+        drawn = strokes.replaced(context.scene, picture)
+        if any(layer.motion.type == "ripple" for layer in picture.layers):
+            for sentence in missing.horizon(view, drawn):
+                sidebar.say(context, layout, sentence.removesuffix(" in View"), "ERROR")
         layout.use_property_split = True
-        if not drawn:
+        if "use_horizon" not in drawn:
             sidebar.draw(layout, view, "use_horizon")
             if view.use_horizon:
                 sidebar.draw(layout, view, "horizon_start", "horizon_end")

@@ -11,7 +11,8 @@ import bpy
 from . import change, menus, open_picture, open_recipe, panel, remove, saving, show
 
 CLASSES = [
-    *open_picture.CLASSES, *open_recipe.CLASSES, *change.CLASSES, *show.CLASSES, *remove.CLASSES, *menus.CLASSES, *panel.CLASSES,
+    *open_picture.CLASSES, *open_recipe.CLASSES, *change.CLASSES, *show.CLASSES, *remove.CLASSES, *menus.CLASSES,
+    *panel.CLASSES,
 ]  # fmt: skip
 
 

@@ -53,7 +53,9 @@ def _told(operator, context, path: str, done: str) -> set[str]:
         return {"CANCELLED"}
     context.view_layer.update()
     if changed:
-        sentence = rpt_("{name} is now {new[0]} x {new[1]} pixels, not {old[0]} x {old[1]}; strokes and places went with it")
+        sentence = rpt_(
+            "{name} is now {new[0]} x {new[1]} pixels, not {old[0]} x {old[1]}; strokes and places went with it"
+        )
         done = sentence.format(name=picture.name, new=picture.picture_size, old=old)
         if any(layer.matte.form != "none" or layer.fill.method == "file" for layer in picture.layers):
             done += rpt_(". Mattes and painted backgrounds from files need the new size too")

@@ -12,18 +12,18 @@ class STILLWATER_MT_picture(bpy.types.Menu):
 
     def draw(self, context):
         layout = self.layout
-        layout.operator("stillwater.open_picture", icon="IMAGE_DATA")
-        layout.operator("stillwater.load_recipe", icon="FILE_FOLDER")
+        layout.operator("stillwater.open_picture", text="Open Picture...", icon="IMAGE_DATA")
+        layout.operator("stillwater.load_recipe", text="Open Recipe...", icon="FILE_FOLDER")
         layout.separator()
         layout.operator("stillwater.show_picture", icon="VIEW_CAMERA")
-        layout.operator("stillwater.replace_picture")
+        layout.operator("stillwater.replace_picture", text="Replace Picture...", icon="FILE_FOLDER")
         layout.operator("stillwater.reload_picture", icon="FILE_REFRESH")
         layout.separator()
         layout.operator("stillwater.standard_view", icon="COLOR")
         layout.operator("stillwater.former_view", icon="LOOP_BACK")
         layout.separator()
         layout.operator("stillwater.remove_picture", icon="X")
-        layout.operator("stillwater.remove_picture", text="Remove Picture and Delete Its Files").delete_files = True
+        layout.operator("stillwater.remove_picture", text="Remove Picture and Delete Its Files...").delete_files = True
 
 
 def _import(self, context):
@@ -32,7 +32,7 @@ def _import(self, context):
 
 
 def _add(self, context):
-    self.layout.operator("stillwater.open_picture", text="Stillwater Picture", icon="IMAGE_DATA")
+    self.layout.operator("stillwater.open_picture", text="Stillwater Picture...", icon="IMAGE_DATA")
 
 
 def _object(self, context):

@@ -37,8 +37,7 @@ def make_ready(context, picture) -> bool:
 
 def select_strokes(context, picture) -> None:
     """Makes the picture's strokes the one selected and active object."""
-    if context.mode != "OBJECT" and bpy.ops.object.mode_set.poll():
-        bpy.ops.object.mode_set(mode="OBJECT")
+    leave_mode(context)
     strokes = picture.strokes
     if strokes.name not in context.view_layer.objects:  # its collection is excluded there
         return
@@ -46,6 +45,12 @@ def select_strokes(context, picture) -> None:
         item.select_set(False)
     strokes.select_set(True)
     context.view_layer.objects.active = strokes
+
+
+def leave_mode(context) -> None:
+    """Back to object mode: objects are added, chosen and removed there."""
+    if context.mode != "OBJECT" and bpy.ops.object.mode_set.poll():
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 class STILLWATER_OT_open_picture(bpy.types.Operator):

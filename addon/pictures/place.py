@@ -91,15 +91,18 @@ def _plane(scene, picture):
 
 def _free_depth(scene) -> float:
     """How far back the plane stands, so that nothing of the artist's lies between it and its camera."""
-    shown = [item for item in scene.objects if item.type in SOLID and not item.hide_get()]
-    corners = [[item.matrix_world @ Vector(corner) for corner in item.bound_box] for item in shown]
-    in_sight = [
-        max(corner.y for corner in box)
-        for box in corners
-        if min(corner.y for corner in box) <= 0 <= max(corner.y for corner in box) + DISTANCE
-        and all(min(corner[i] for corner in box) < SIDE / 2 and max(corner[i] for corner in box) > -SIDE / 2 for i in (0, 2))
-    ]
-    return max(max(corner.y for box in corners for corner in box), 0) + DISTANCE + GAP if in_sight else 0.0
+    boxes = [_box(item) for item in scene.objects if item.type in SOLID]
+    half = SIDE / 2
+    sight = ((-half, half), (-DISTANCE, 0), (-half, half))
+    if not any(all(low <= s[1] and high >= s[0] for low, high, s in zip(*box, sight, strict=True)) for box in boxes):
+        return 0.0
+    return max(high.y for _, high in boxes) + DISTANCE + GAP
+
+
+def _box(item) -> tuple[Vector, Vector]:
+    """The corners of an object's bounding box with the lowest and with the highest coordinates, in the world."""
+    corners = [item.matrix_world @ Vector(corner) for corner in item.bound_box]
+    return tuple(Vector(edge(axis) for axis in zip(*corners, strict=True)) for edge in (min, max))
 
 
 def _hung(picture, item):

@@ -8,9 +8,11 @@ from .. import versions
 from ..bake import job, places
 from ..compositor import tree as node
 from ..properties import arrange, names
+from ..properties.picture import frame_size
 from ..ui import polls
 from . import place
 from . import scene as settings
+from .open_picture import leave_mode
 
 
 def remove(scene, index: int) -> None:
@@ -22,7 +24,7 @@ def remove(scene, index: int) -> None:
     made = _Made(scene, picture)
     if picture.tree is not None:
         job.end(picture.tree)
-    size, camera_gone = settings.frame_size(picture), scene.camera is None or scene.camera == picture.camera
+    size, camera_gone = frame_size(picture), scene.camera is None or scene.camera == picture.camera
     arrange.remove_picture(scene, index)
     made.remove()
     versions.drop_compositor(scene)
@@ -158,15 +160,17 @@ class STILLWATER_OT_remove_picture(bpy.types.Operator):
         """Nothing to adjust afterwards: files are not brought back by unticking a box."""
 
     def execute(self, context):
-        settings_of = context.scene.stillwater
-        picture = settings_of.active()
+        here = context.scene.stillwater
+        picture = here.active()
         name, files = picture.name, places.files_of(picture)
-        remove(context.scene, settings_of.active_picture)
+        leave_mode(context)
+        remove(context.scene, here.active_picture)
         context.view_layer.update()
         if not files:
             return {"FINISHED"}
         if not self.delete_files:
-            self.report({"INFO"}, rpt_("{name} is removed; its frames stay in {folder}").format(name=name, folder=files.folder))
+            sentence = rpt_("{name} is removed; its frames stay in {folder}")
+            self.report({"INFO"}, sentence.format(name=name, folder=files.folder))
             return {"FINISHED"}
         try:
             count = files.delete()

@@ -4,6 +4,7 @@ Places keep their place over the picture, lengths and speeds their share of it; 
 """
 
 from .. import versions
+from ..properties.picture import frame_size
 from ..properties.walk import every
 from . import place
 from . import scene as settings
@@ -19,7 +20,7 @@ def resize(scene, picture, new: tuple[int, int]) -> bool:
     if old == new or 0 in old:
         return False
     render = scene.render
-    if (render.resolution_x, render.resolution_y) == settings.frame_size(picture, old):
+    if (render.resolution_x, render.resolution_y) == frame_size(picture, old):
         settings.use_size(scene, picture)
     place.stretch_strokes(picture, old)
     factors = new[0] / old[0], new[1] / old[1]

@@ -1,15 +1,21 @@
 """How the scene is set for a picture, and how it was set before: camera, render size, view transform, compositor."""
 
+import contextlib
+
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..compositor import tree as node
+from ..properties.picture import frame_size
 
 STANDARD = {
     "view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0,
     "use_curve_mapping": False, "use_white_balance": False,
 }  # fmt: skip
-RATES = {"24": (24, 1.0), "25": (25, 1.0), "30": (30, 1.0), "23.98": (24, 1.001), "29.97": (30, 1.001), "50": (50, 1.0), "60": (60, 1.0)}
+RATES = {  # frames a second: fps, fps_base
+    "23.98": (24, 1.001), "24": (24, 1.0), "25": (25, 1.0), "29.97": (30, 1.001), "30": (30, 1.0), "50": (50, 1.0),
+    "60": (60, 1.0),
+}  # fmt: skip
 
 
 def keep(scene) -> None:
@@ -42,7 +48,8 @@ def can_go_back(scene) -> bool:
     """Whether there was another view transform before."""
     former = scene.stillwater.former
     before = {name: getattr(former, name) for name in STANDARD}
-    return bool(former.view_transform) and (before != STANDARD or former.display_device != "sRGB") and is_standard(scene)
+    was_standard = before == STANDARD and former.display_device == "sRGB"
+    return bool(former.view_transform) and not was_standard and is_standard(scene)
 
 
 def use_standard(scene) -> None:
@@ -61,11 +68,15 @@ def use_standard(scene) -> None:
 
 
 def back_to_former_view(scene) -> None:
-    """The view transform from before."""
+    """The view transform from before. Throws ValueError."""
     former = scene.stillwater.former
-    scene.display_settings.display_device = former.display_device
-    for name in STANDARD:
-        setattr(scene.view_settings, name, getattr(former, name))
+    try:
+        scene.display_settings.display_device = former.display_device
+        for name in STANDARD:
+            setattr(scene.view_settings, name, getattr(former, name))
+    except TypeError:
+        sentence = rpt_("This color configuration has no view transform {name}")
+        raise ValueError(sentence.format(name=former.view_transform)) from None
 
 
 def use_rate(scene, rate: str) -> None:
@@ -80,12 +91,6 @@ def use_size(scene, picture) -> None:
     render.resolution_x, render.resolution_y = frame_size(picture)
     render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1
-
-
-def frame_size(picture, size=None) -> tuple[int, int]:
-    """Width and height of a frame, px; of a picture of another `size` where one is given. Rounded as the engine does."""
-    sides = size or picture.picture_size
-    return tuple(max(1, int(side * picture.output.scale + 0.5)) for side in sides)
 
 
 def show(scene, picture) -> bool:
@@ -135,5 +140,6 @@ def go_back(scene, camera_gone: bool, size: tuple[int, int]) -> None:
         render.resolution_percentage = former.resolution_percentage
         render.pixel_aspect_x, render.pixel_aspect_y = former.pixel_aspect
     if is_standard(scene):
-        back_to_former_view(scene)
+        with contextlib.suppress(ValueError):  # then it stays as it is
+            back_to_former_view(scene)
     former.kept, former.camera = False, None

@@ -91,7 +91,11 @@ class STILLWATER_OT_former_view(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        settings.back_to_former_view(context.scene)
+        try:
+            settings.back_to_former_view(context.scene)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}
 
 

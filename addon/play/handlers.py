@@ -26,7 +26,10 @@ def frame_changed(scene, depsgraph=None):
 def something_changed(scene, depsgraph=None):
     """A slider, a key, a stroke. While Blender plays, the next frame shows it."""
     global _stale
-    if _busy(depsgraph) or not scene.stillwater.pictures or depsgraph is None:
+    if _busy(depsgraph) or depsgraph is None:
+        return
+    show.tidy()
+    if not scene.stillwater.pictures:
         return
     changed = [update.id.original for update in depsgraph.updates]
     if not any(_matters(scene, datablock) for datablock in changed):

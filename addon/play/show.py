@@ -25,13 +25,25 @@ def scene(shown, refresh: bool = True) -> None:
     for picture in shown.stillwater.pictures:
         key = (shown.session_uid, picture.id)
         if key not in _stages:
-            _stages[key], refresh = Stage(picture.id), True
+            _stages[key], refresh = Stage(picture.id, _answered(shown.session_uid)), True
         try:
             _show(shown, picture, _stages[key], refresh)
         except Exception as error:  # noqa: BLE001  a handler that raises would fill the console at every frame
-            _stages[key].problem = f"{type(error).__name__}: {error}"
+            known = isinstance(error, ValueError | OSError)
+            _stages[key].problem = str(error) if known else f"{type(error).__name__}: {error}"
             _clear(picture, _stages[key])
     _redraw()
+
+
+def _answered(uid: int):
+    """What is done when the server has answered a stage of a scene: it may be gone by then."""
+
+    def show() -> None:
+        found = next((each for each in bpy.data.scenes if each.session_uid == uid), None)
+        if found is not None:
+            scene(found, refresh=False)
+
+    return show
 
 
 def again(shown) -> None:
@@ -60,9 +72,11 @@ def forget() -> None:
 def tidy() -> None:
     """Forgets what belongs to pictures that are gone."""
     here = {(each.session_uid, picture.id) for each in bpy.data.scenes for picture in each.stillwater.pictures}
-    for key in [key for key in _stages if key not in here]:
+    gone = [key for key in _stages if key not in here]
+    for key in gone:
         _stages.pop(key).close()
-    plane.sweep({identifier for _, identifier in here})
+    if gone:
+        plane.sweep({identifier for _, identifier in here})
 
 
 def _show(shown, picture, stage: Stage, refresh: bool) -> None:

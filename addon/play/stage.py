@@ -7,6 +7,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 from .. import engine
@@ -16,8 +17,9 @@ from . import server
 class Stage:
     """Throws nothing: `problem` says what keeps it from showing frames."""
 
-    def __init__(self, identifier: str):
-        self.identifier = identifier
+    def __init__(self, identifier: str, changed: Callable[[], None]):
+        """`changed` is called when the server has answered."""
+        self.identifier, self._changed = identifier, changed
         self.problem = ""
         self.share: float | None = None  # of a preparation that runs
         self.rests = False  # nothing of the picture moves
@@ -63,7 +65,7 @@ class Stage:
             if self._live is None:
                 self._live = engine.live()
             ready = self._live.take(self.recipe, self._folder, self._longest)
-            self.problem, self.taken = "", self.taken + 1
+            self.problem, self.taken = "", self.taken + ready
         except (ValueError, OSError) as error:
             server.cancel(self._request)
             self._asked, self.share, self.problem = "", None, named(str(error), self.recipe)
@@ -81,6 +83,7 @@ class Stage:
             return
         if wanted == self._asked:
             return
+        server.cancel(self._request)
         self._asked, self.share = wanted, 0.0
         try:
             self._request = server.prepare(self.identifier, self.recipe, self._folder, self._longest, self._told)
@@ -102,6 +105,7 @@ class Stage:
                 self._take()
             case {"event": "error", "sentence": str() as sentence}:
                 self._give_up(named(sentence, self.recipe))
+        self._changed()
 
 
 def named(sentence: str, recipe: dict) -> str:

@@ -99,8 +99,8 @@ def _targets(scene) -> Iterator:
     """What drivers anywhere in the file read from `scene`."""
     kinds = [kind.identifier for kind in bpy.data.bl_rna.properties if kind.type == "COLLECTION"]
     blocks = [block for kind in kinds for block in getattr(bpy.data, kind)]
-    trees = [tree for block in blocks if (tree := getattr(block, "node_tree", None)) is not None]
-    for block in [*blocks, *trees]:
+    blocks += [tree for block in blocks if (tree := getattr(block, "node_tree", None)) is not None]
+    for block in {block.as_pointer(): block for block in blocks}.values():  # 5.2 has lists of lists
         data = getattr(block, "animation_data", None)
         variables = [variable for curve in data.drivers for variable in curve.driver.variables] if data else []
         yield from (target for variable in variables for target in variable.targets if target.id == scene)

@@ -43,10 +43,19 @@ class STILLWATER_PG_wind(bpy.types.PropertyGroup):
     seed: seed()
 
 
+def start_horizon(view, context) -> None:
+    """A horizon that is turned on and was never placed lies level in the middle of the picture."""
+    width, height = view.id_data.path_resolve(view.path_from_id().rpartition(".")[0]).picture_size
+    if view.use_horizon and tuple(view.horizon_start) == tuple(view.horizon_end):
+        view.horizon_start, view.horizon_end = (0, height / 2), (width, height / 2)
+
+
 class STILLWATER_PG_view(bpy.types.PropertyGroup):
     """How the picture sees the world: needed by ripple and bob."""
 
-    use_horizon: BoolProperty(name="Horizon", description="The picture's horizon is known", options=set())
+    use_horizon: BoolProperty(
+        name="Horizon", description="The picture's horizon is known", options=set(), update=start_horizon
+    )
     horizon_start: place("Start", "A point of the horizon; may lie outside the picture")
     horizon_end: place("End", "Another point of the horizon; may lie outside the picture")
     fov: FloatProperty(
@@ -58,6 +67,22 @@ class STILLWATER_PG_view(bpy.types.PropertyGroup):
         name="Eye Height", description="Of the eye over the water [m]",
         default=1.7, min=0.001, soft_min=0.1, max=1e5, soft_max=100, options=set(),
     )
+
+
+def frame_size(picture, size=None) -> tuple[int, int]:
+    """Width and height of a frame, px, rounded as the engine does; of a picture of another `size` where given."""
+    return tuple(max(1, int(side * picture.output.scale + 0.5)) for side in size or picture.picture_size)
+
+
+def _follow_scale(output, context) -> None:
+    """Where the scene renders its camera's picture at the picture's proportions, frames and renders stay as large."""
+    scene = output.id_data
+    picture = scene.path_resolve(output.path_from_id().rpartition(".")[0])
+    render, (width, height) = scene.render, picture.picture_size
+    if picture.camera is None or scene.camera != picture.camera or not width:
+        return
+    if abs(render.resolution_x * height - render.resolution_y * width) <= max(width, height):
+        render.resolution_x, render.resolution_y = frame_size(picture)
 
 
 class STILLWATER_PG_output(bpy.types.PropertyGroup):
@@ -80,7 +105,7 @@ class STILLWATER_PG_output(bpy.types.PropertyGroup):
     layers: BoolProperty(name="Layers", description="Each layer as its own EXR layer beside the whole", options=set())
     scale: FloatProperty(
         name="Scale", description="Output pixels for a picture pixel",
-        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(),
+        default=1, min=0.001, soft_min=0.1, max=16, soft_max=2, options=set(), update=_follow_scale,
     )
 
 

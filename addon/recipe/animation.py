@@ -29,6 +29,7 @@ class Animation:
     def _play(self, scene, paths: list[str]) -> None:
         if not paths:
             return
+        scene.update_tag()  # drivers do not know yet what a script has set
         now, between = scene.frame_current, scene.frame_subframe
         seen = {path: [] for path in paths}
         try:

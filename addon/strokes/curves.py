@@ -107,7 +107,7 @@ def _nurbs(curves: Curves, i: int) -> np.ndarray:
     weights = curves.weights[curves.offsets[i] : curves.offsets[i + 1]]
     order, cyclic, mode = int(curves.order[i]), bool(curves.cyclic[i]), int(curves.knots[i])
     if not _is_spline(len(points), order, cyclic, mode):
-        return points
+        return np.concatenate([points, points[:1]]) if cyclic and len(points) > 1 else points
     knots = knot_vector(len(points), order, cyclic, mode)
     degree = order - 1
     if cyclic:
@@ -132,7 +132,7 @@ def _de_boor(weighted, knots, degree: int, span, u) -> np.ndarray:
 
 
 def _is_spline(count: int, order: int, cyclic: bool, mode: int) -> bool:
-    """Whether there are points enough; where not, Blender joins them by straight lines, left open."""
+    """Whether there are points enough; where not, Blender joins them by straight lines."""
     if count < order or (mode == BEZIER_KNOTS and count <= order):
         return False
     return not (cyclic and mode in (BEZIER_KNOTS, ENDPOINT_BEZIER)) or count % (order - 1) == 0

@@ -25,10 +25,13 @@ class _Strokes(sidebar.OfPicture):
 
 
 def _draw_role(context, layout, picture, layer, role: roles.Role) -> None:
-    drawn = read.is_drawn(context.scene, picture, layer.id if layer else "", role)
+    layer_id, drawing = layer.id if layer else "", context.scene.stillwater.drawing
+    drawn = read.is_drawn(context.scene, picture, layer_id, role)
     row = layout.row(align=True)
-    row.operator("stillwater.draw_stroke", text=role.name, icon="GREASEPENCIL").role = role.key
-    row.label(text="Drawn" if drawn else "", icon="CHECKMARK" if drawn else "BLANK1")
+    row.operator(
+        "stillwater.draw_stroke", text=role.name, icon="CHECKMARK" if drawn else "GREASEPENCIL",
+        depress=(drawing.role, drawing.picture_id, drawing.layer_id) == (role.key, picture.id, layer_id),
+    ).role = role.key
     if drawn:
         row.operator("stillwater.delete_strokes", text="", icon="X").role = role.key
 
@@ -44,7 +47,11 @@ class STILLWATER_TL_stroke(bpy.types.WorkSpaceTool):
 
     def draw_settings(context, layout, tool):
         hint = draw_mode.hint(context.scene)
-        layout.label(text=hint or "Choose what to draw in the sidebar, tab Stillwater", icon="INFO")
+        text = hint or "Choose what to draw in the sidebar, tab Stillwater"
+        if context.region.type == "TOOL_HEADER":
+            layout.label(text=text, icon="INFO")
+        else:
+            sidebar.say(context, layout, text, "INFO")
         if hint:
             layout.operator("stillwater.stop_drawing", icon="CHECKMARK")
 

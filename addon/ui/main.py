@@ -17,7 +17,8 @@ class _Main(sidebar.Part):
         else:
             layout.label(text=f"Engine {engine.version()}", icon="CHECKMARK")
         if migrate.newer(context.scene):
-            sidebar.say(context, layout, iface_("A newer Stillwater made this scene; update to keep all of it"), "ERROR")
+            sentence = iface_("A newer Stillwater made this scene; update to keep all of it")
+            sidebar.say(context, layout, sentence, "ERROR")
         picture = settings.active()
         if picture is None:
             column = layout.column()

@@ -7,7 +7,8 @@ def own_scene(cls, context) -> bool:
     """The scene can be changed: it is not linked from another file."""
     library = context.scene.library
     if library is not None:
-        cls.poll_message_set(tip_("This scene is linked; open {file}, or append the scene instead").format(file=library.filepath))
+        sentence = tip_("This scene is linked; open {file}, or append the scene instead")
+        cls.poll_message_set(sentence.format(file=library.filepath))
     return library is None
 
 

@@ -73,7 +73,10 @@ std::vector<std::pair<float, float>> moved(const FrameRenderer& renderer, int la
   const FrameNumbers numbers{now, std::move(states)};
   std::vector<float> x, y;
   for (const auto& point : points) x.push_back(point.first), y.push_back(point.second);
-  renderer.move(layer, numbers, x.data(), y.data(), static_cast<int>(points.size()));
+  {
+    const py::gil_scoped_release release;
+    renderer.move(layer, numbers, x.data(), y.data(), static_cast<int>(points.size()));
+  }
   for (size_t i = 0; i < points.size(); ++i) points[i] = {x[i], y[i]};
   return points;
 }

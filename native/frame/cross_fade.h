@@ -31,7 +31,7 @@ class CrossFade {
   double measured_likeness(const Plate& plate, cv::Point apart) const;
   double likeness(const Plate& plate, cv::Point apart) const;
 
-  Source mean_;           ///< on a coarse grid: nothing small is left in it
+  Source mean_;                   ///< on a coarse grid: nothing small is left in it
   float columns_ = 1, rows_ = 1;  ///< of the mean for one of the plate
   mutable std::mutex mutex_;
   mutable std::map<std::pair<int, int>, double> likeness_;  ///< by the distance of the copies, measured once: a loop has two

@@ -58,8 +58,9 @@ def draw(part, points, frame: int = 1, kind: str = "POLY", radius=0.05, **stored
 
 KINDS = {
     "position": ("FLOAT_VECTOR", "POINT"), "radius": ("FLOAT", "POINT"), "nurbs_weight": ("FLOAT", "POINT"),
-    "handle_left": ("FLOAT_VECTOR", "POINT"), "handle_right": ("FLOAT_VECTOR", "POINT"), "cyclic": ("BOOLEAN", "CURVE"),
-    "handle_type_left": ("INT8", "POINT"), "handle_type_right": ("INT8", "POINT"), "resolution": ("INT", "CURVE"),
+    "handle_left": ("FLOAT_VECTOR", "POINT"), "handle_right": ("FLOAT_VECTOR", "POINT"),
+    "handle_type_left": ("INT8", "POINT"), "handle_type_right": ("INT8", "POINT"),
+    "cyclic": ("BOOLEAN", "CURVE"), "resolution": ("INT", "CURVE"),
     "nurbs_order": ("INT8", "CURVE"), "knots_mode": ("INT8", "CURVE"), "material_index": ("INT", "CURVE"),
     ".selection": ("BOOLEAN", "CURVE"),
 }
@@ -78,8 +79,9 @@ def store(drawing, curve: int, name: str, values: np.ndarray) -> None:
 
 
 def distance(a: np.ndarray, b: np.ndarray) -> float:
-    """How far two polylines are apart where they are farthest (Hausdorff): from points of one to segments of the other."""
-    return max(farthest(a, b), farthest(b, a))
+    """How far two polylines are apart where they are farthest (Hausdorff), of their corners and the middles between."""
+    with_middles = [np.concatenate([line, (line[1:] + line[:-1]) / 2]) for line in (a, b)]
+    return max(farthest(with_middles[0], b), farthest(with_middles[1], a))
 
 
 def farthest(points: np.ndarray, line: np.ndarray) -> float:

@@ -41,7 +41,7 @@ class Recorder:
     def popover(self, panel, text="", icon="NONE"):
         self.menu(panel, text, icon)
 
-    def operator(self, name, text="", icon="NONE"):
+    def operator(self, name, text="", icon="NONE", depress=False):
         room, verb = name.split(".")
         properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
         assert icon in ICONS

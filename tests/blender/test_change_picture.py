@@ -185,7 +185,7 @@ def test_a_colour_space_chosen_on_the_image_counts(extension, picture):
 def test_a_colour_space_that_the_engine_has_not_is_said(extension, scene, picture, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
     picture.image.colorspace_settings.name = "ACEScg"
-    with pytest.raises(RuntimeError, match="lake: its image is in ACEScg, which can't be animated; choose a Color Space"):
+    with pytest.raises(RuntimeError, match="lake: its image is in ACEScg, which can't be animated; choose a Color"):
         bpy.ops.stillwater.bake()
     picture.colour_space = "linear"
     assert picture.image.colorspace_settings.name == "Linear Rec.709" and bpy.ops.stillwater.bake() == {"FINISHED"}
@@ -202,3 +202,13 @@ def test_a_reload_of_a_picture_in_another_colour_space_keeps_it(scene, picture, 
     paint(path, seed=9)
     bpy.ops.stillwater.reload_picture()
     assert picture.image.colorspace_settings.name == "Linear Rec.709" and picture.colour_space == "linear"
+
+
+def test_the_render_is_as_large_as_the_frames(scene, picture):
+    picture.output.scale = 0.5
+    assert (scene.render.resolution_x, scene.render.resolution_y) == (WIDTH // 2, HEIGHT // 2)
+    picture.output.scale = 2
+    assert (scene.render.resolution_x, scene.render.resolution_y) == (WIDTH * 2, HEIGHT * 2)
+    scene.render.resolution_x = 1000  # the artist's own
+    picture.output.scale = 1
+    assert scene.render.resolution_x == 1000

@@ -2,14 +2,15 @@
 
 import importlib
 import json
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from drawings import draw, lay_out, on_plane, store
 from mathutils import Vector
+from panels import Recorder, registered
 from panels import draw as show
-from panels import registered
 from pixels import PACKAGE
 
 gp_layers = importlib.import_module(f"{PACKAGE}.strokes.gp_layers")
@@ -245,7 +246,8 @@ def test_strokes_of_a_role_are_deleted(scene, picture, layers):
 
 def shown() -> dict:
     parts = [show(cls) for cls in registered("view_3d") if cls.poll(bpy.context)]
-    return {kind: [entry for part in parts for entry in getattr(part, kind)] for kind in ("texts", "properties", "operators")}
+    kinds = ("texts", "properties", "operators")
+    return {kind: [entry for part in parts for entry in getattr(part, kind)] for kind in kinds}
 
 
 def test_the_panel_offers_the_roles_that_there_are(scene, picture, layers):
@@ -260,18 +262,33 @@ def test_the_panel_offers_the_roles_that_there_are(scene, picture, layers):
     assert "stillwater.delete_strokes" in shown()["operators"]
 
 
+@pytest.mark.parametrize("place", ["TOOL_HEADER", "UI"])
+def test_the_tool_says_what_a_stroke_does(scene, picture, layers, place):
+    tools = bpy.types.WorkSpaceTool.__subclasses__()
+    tool = next(cls for cls in tools if getattr(cls, "bl_idname", "") == draw_mode.TOOL)
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1))  # Blender's own is 0 without a window
+    context = SimpleNamespace(scene=scene, preferences=preferences, region=SimpleNamespace(type=place, width=280))
+    idle, busy = Recorder(), Recorder()
+    tool.draw_settings(context, idle, None)
+    assert " ".join(idle.texts) == "Choose what to draw in the sidebar, tab Stillwater" and idle.operators == []
+    bpy.ops.stillwater.draw_stroke(role="sway_line")
+    tool.draw_settings(context, busy, None)
+    assert " ".join(filter(None, busy.texts)) == status() and busy.operators == ["stillwater.stop_drawing"]
+
+
 def test_the_panel_in_edit_mode_changes_roles(picture, layers, selected):
     assert "stillwater.change_role" in shown()["operators"]
 
 
 def test_numbers_that_strokes_stand_for_are_not_shown(scene, picture, layers):
     names = {"armature_root", "armature_tip", "horizon_start", "horizon_end", "use_horizon"}
+    picture.view.use_horizon = True
     assert names <= set(shown()["properties"])
     for identifier, role in ((layers[1].id, SWAY), ("", HORIZON)):
         draw(gp_layers.ensure(picture, identifier, role), on_plane((10, 10), (20, 20)))
     assert not names & set(shown()["properties"]) and {"frequency", "fov"} <= set(shown()["properties"])
     picture.active_layer = 2
-    assert "Waterline: 0 points" in shown()["texts"]
+    assert "Waterline: 0 Points" in shown()["texts"]
 
 
 @pytest.fixture
@@ -293,10 +310,14 @@ def test_strokes_go_before_numbers_in_the_recipe(scene, picture, layers, written
     picture.view.use_horizon, picture.view.horizon_start, picture.view.horizon_end = True, (0, 9), (10, 9)
     typed = written()
     assert [layer["motion"].get("armature") for layer in typed["layers"]] == [None, [[1, 2], [3, 4]], None]
-    assert typed["layers"][2]["motion"]["waterline"] == [[5, 6], [7, 8]] and typed["view"]["horizon"] == [[0, 9], [10, 9]]
-    lines = {SWAY: [(100, 700), (90, 300), (120, 20)], WATERLINE: [(500, 500), (600, 510)], HORIZON: [(900, 210), (0, 200)]}
-    for identifier, role in ((picture.layers[1].id, SWAY), (picture.layers[2].id, WATERLINE), ("", HORIZON)):
-        draw(gp_layers.ensure(picture, identifier, role), on_plane(*lines[role]))
+    assert typed["layers"][2]["motion"]["waterline"] == [[5, 6], [7, 8]]
+    assert typed["view"]["horizon"] == [[0, 9], [10, 9]]
+    for identifier, role, line in (
+        (picture.layers[1].id, SWAY, [(100, 700), (90, 300), (120, 20)]),
+        (picture.layers[2].id, WATERLINE, [(500, 500), (600, 510)]),
+        ("", HORIZON, [(900, 210), (0, 200)]),
+    ):
+        draw(gp_layers.ensure(picture, identifier, role), on_plane(*line))
     drawn = written()
     for found, wanted in (
         (drawn["layers"][1]["motion"]["armature"], [(100, 700), (120, 20)]),

@@ -127,7 +127,7 @@ def test_a_copied_layer_has_strokes_of_its_own(scene, extension, picture, oak):
 def test_a_removed_layer_takes_its_strokes_along(scene, extension, picture, oak):
     extension.strokes.remove_roles(picture, "0123456789ab")
     assert len(kept(picture)) == 2
-    bpy.ops.stillwater.layer(action="remove")
+    bpy.ops.stillwater.remove_layer()
     assert kept(picture) == ["Horizon"]
 
 

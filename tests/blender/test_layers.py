@@ -78,6 +78,13 @@ def test_a_layer_comes_before_the_active_one(layers):
     assert order() == "a b Water Layer c d" and now().layers[2].motion.type == "ripple"
 
 
+def test_a_boat_floats_on_the_only_water_there_is(layers):
+    for motion in ("bob", "ripple", "bob", "ripple", "bob"):
+        bpy.ops.stillwater.add_layer(motion=motion)
+    boats = {layer.name: layer.motion.bob.water for layer in layers.layers if layer.motion.type == "bob"}
+    assert boats == {"Boat": "", "Boat.001": "Water", "Boat.002": ""}
+
+
 def test_the_first_layer_is_the_background(scene, picture):
     picture.layers.clear()
     bpy.ops.stillwater.add_layer()

@@ -1,4 +1,4 @@
-"""Fifty sequences of what can be done to layers, seeded: whatever happens, what is said stays right and can be undone."""
+"""Fifty seeded sequences of what can be done to layers: what is said stays right and can be undone."""
 
 import random
 
@@ -30,7 +30,8 @@ def steps(dice: random.Random) -> list[tuple]:
 def check(extension) -> None:
     """Ids and names are unique, the active layer exists, every curve moves a layer that is there."""
     picture = now()
-    assert len({layer.id for layer in picture.layers}) == len({layer.name for layer in picture.layers}) == len(picture.layers)
+    assert len({layer.id for layer in picture.layers}) == len(picture.layers)
+    assert len({layer.name for layer in picture.layers}) == len(picture.layers)
     assert picture.active_layer < max(1, len(picture.layers))
     drivers = bpy.context.scene.animation_data.drivers
     for curve in [*keyed(extension), *drivers]:

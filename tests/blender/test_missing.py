@@ -63,6 +63,10 @@ def no_horizon():
     now().view.use_horizon = False
 
 
+def degenerate_horizon():
+    now().view.horizon_end = now().view.horizon_start
+
+
 def no_water():
     named("boat").motion.bob.water = ""
 
@@ -82,7 +86,8 @@ SENTENCES = {
     no_matte_file: "Choose the file of its matte",
     no_labels: "Choose the file of its matte",
     no_background: "Choose the file that is painted behind it",
-    no_horizon: "Draw the horizon, or place it in View",
+    no_horizon: "Draw the horizon, or turn it on in View",
+    degenerate_horizon: "Draw the horizon, or place its two ends in View",
     no_water: "Choose the water it floats on",
     wrong_water: "Choose the water it floats on",
     no_water_at_all: "Add a layer with Ripple: the water it floats on",
@@ -97,3 +102,21 @@ def test_what_is_missing_is_said_where_the_engine_would_refuse(extension, whole,
         return  # an empty path is the recipe's folder: found only when the engine opens it
     with pytest.raises(stillwater.RecipeError):
         stillwater.parse(said(extension))
+
+
+def test_a_horizon_that_is_turned_on_lies_in_the_middle_until_it_is_placed(picture):
+    view, picture.picture_size = picture.view, (640, 400)
+    view.use_horizon = True
+    assert (tuple(view.horizon_start), tuple(view.horizon_end)) == ((0, 200), (640, 200))
+    view.horizon_start, view.use_horizon = (0, 100), False
+    view.use_horizon = True
+    assert tuple(view.horizon_start) == (0, 100)
+
+
+def test_the_view_says_that_water_needs_a_horizon(picture):
+    from panels import draw, registered
+
+    view = next(cls for cls in registered("view_3d") if cls.bl_label == "View")
+    assert draw(view).texts == []
+    picture.layers[0].motion.type = "ripple"
+    assert " ".join(draw(view).texts) == "Say where the horizon is: turn it on"

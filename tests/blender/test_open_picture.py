@@ -155,7 +155,7 @@ def test_a_drop_onto_the_viewport_is_taken(scene):
 
 @pytest.mark.parametrize(
     "name, words",
-    [("none.png", "there is no such picture"), ("text.png", "can't read it as a picture"), ("", "can't read it|no such")],
+    [("none.png", "there is no such picture"), ("text.png", "can't read it as a picture")],
 )
 def test_what_is_no_picture_is_a_sentence_and_changes_nothing(scene, tmp_path, name, words):
     (tmp_path / "text.png").write_text("Once upon a time")
@@ -268,7 +268,8 @@ def test_a_linked_scene_says_why_it_can_t_be_changed(scene, path, tmp_path):
         wanted.scenes = ["Scene"]
     linked = wanted.scenes[0]
     bpy.context.window.scene = linked
-    for name in ("open_picture", "show_picture", "replace_picture", "reload_picture", "remove_picture", "standard_view"):
+    for verb in ("open", "show", "replace", "reload", "remove"):
+        name = f"{verb}_picture"
         with pytest.raises(RuntimeError, match=r"(?s)poll.*linked"):
             getattr(bpy.ops.stillwater, name)()
 

@@ -188,7 +188,7 @@ def opened(scene, tmp_path):
 def test_the_picture_is_shown(opened, panel):
     shown = panel()
     assert f"lake.png, {WIDTH} x {HEIGHT} px" in shown["texts"]
-    assert {"stillwater.replace_picture", "stillwater.reload_picture", "stillwater.remove_picture"} <= set(shown["operators"])
+    assert {f"stillwater.{verb}_picture" for verb in ("replace", "reload", "remove")} <= set(shown["operators"])
     assert "stillwater.show_picture" not in shown["operators"] and "colour_space" in shown["properties"]
 
 

@@ -66,10 +66,10 @@ def shown(extension, scene, live):
     return live
 
 
-def test_what_was_prepared_is_shown_without_another_frame(extension, scene, live):
+def test_what_was_prepared_is_shown_at_once(extension, scene, live):
     scene.frame_set(6)
+    assert shows_original(live)
     stage.wait(extension)
-    extension.play.show.scene(scene)
     assert not shows_original(live)
 
 
@@ -231,8 +231,8 @@ def test_an_image_that_was_removed_is_made_again(extension, scene, shown):
 
 def test_a_removed_picture_leaves_no_image(extension, scene, shown):
     bpy.ops.stillwater.remove_picture("EXEC_DEFAULT", True)
-    bpy.ops.ed.undo_push(message="removed")
-    extension.play.handlers.another_state()
+    scene.update_tag()
+    bpy.context.view_layer.update()
     assert not [image for image in bpy.data.images if extension.play.plane.is_live(image)]
 
 

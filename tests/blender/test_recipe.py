@@ -15,7 +15,7 @@ from stillwater.recipe.picture import Follows
 from stillwater.recipe.stochastic import Bob, Drift, Ripple, Sway
 
 # Property group -> the recipe's class, and the properties that stand for its fields under another name.
-OURS = {"id", "name", "tree", "plane", "camera", "strokes", "picture_size", "active_layer"}  # of a picture, in Blender only
+OURS = {"id", "name", "tree", "plane", "camera", "strokes", "picture_size", "active_layer"}  # of a picture, in Blender
 OURS |= {"collection", "image", "missing"}
 GROUPS = {
     "STILLWATER_PG_picture": (Recipe, OURS),

@@ -6,8 +6,8 @@ import pytest
 from pixels import PACKAGE
 
 CLASSES = (
-    bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.types.UIList, bpy.types.Menu, bpy.types.FileHandler,
-    bpy.types.AddonPreferences,
+    bpy.types.PropertyGroup, bpy.types.Operator, bpy.types.Panel, bpy.types.UIList, bpy.types.Menu,
+    bpy.types.FileHandler, bpy.types.AddonPreferences,
 )  # fmt: skip
 
 

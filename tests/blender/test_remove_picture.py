@@ -66,6 +66,19 @@ def test_undo_brings_it_all_back(scene, path):
     assert bpy.context.scene.stillwater.active() is None and len(bpy.data.objects) == 0
 
 
+@pytest.mark.parametrize("mode", ["PAINT_GREASE_PENCIL", "EDIT"])
+def test_it_goes_while_it_is_being_drawn_on(scene, path, mode):
+    bpy.ops.stillwater.open_picture(filepath=path)
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.ed.undo_push(message="drawing")
+    bpy.ops.stillwater.remove_picture("EXEC_DEFAULT", True)
+    assert len(bpy.data.objects) == 0 and bpy.context.mode == "OBJECT"
+    bpy.ops.ed.undo()
+    assert bpy.context.scene.stillwater.active().strokes is not None
+    bpy.ops.stillwater.open_picture(filepath=path)
+    assert bpy.context.mode == "OBJECT" and len(bpy.data.objects) == 6
+
+
 def test_what_the_artist_made_stays(extension, scene, path):
     bpy.ops.stillwater.open_picture(filepath=path)
     picture = scene.stillwater.active()

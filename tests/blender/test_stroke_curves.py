@@ -84,13 +84,13 @@ def test_a_curve_is_the_one_that_blender_shows(part, picture, kind, cyclic):
 @pytest.mark.parametrize("cyclic", [False, True], ids=["open", "cyclic"])
 @pytest.mark.parametrize("knots", range(4), ids=KNOTS)
 def test_a_nurbs_curve_is_the_one_that_blender_shows(part, picture, knots, cyclic):
-    """Orders 3 to 5, with as many points as are too few, just enough, and more. 5.2 makes the very same points, 4.5 others
-    of the same curve, so that it cuts corners between Bezier pieces."""
+    """Orders 3 to 5, with as many points as are too few, just enough, and more. 5.2 makes the very same points, 4.5
+    others of the same curve, so that it cuts corners between Bezier pieces."""
     for seed, (count, order) in enumerate((n, order) for n in (1, 2, 3, 4, 5, 6, 9) for order in (3, 4, 5)):
         stored = random(seed, count)
         drawing = draw(part, kind="NURBS", cyclic=cyclic, resolution=50, nurbs_order=order, knots_mode=knots, **stored)
     for line, wanted in zip(ours(drawing), converted(picture.strokes), strict=True):
-        if len(line) == len(wanted):
+        if len(line) == len(wanted) or len(wanted) == 2:
             assert distance(line, wanted) < 1e-5
         else:
             assert bpy.app.version < (5, 0) and farthest(wanted, line) < 2e-3 and distance(line, wanted) < 3e-2

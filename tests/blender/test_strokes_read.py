@@ -126,7 +126,7 @@ CAMERAS = {
 
 @pytest.mark.parametrize("settings", CAMERAS.values(), ids=CAMERAS)
 def test_before_the_plane_it_lands_where_the_camera_sees_it(scene, picture, part, settings):
-    """The pixel's own place on the plane and the stroke's are one point of the camera's frame, as Blender computes it."""
+    """A pixel's place on the plane and the stroke's are one point of the camera's frame, as Blender computes it."""
     camera = add_camera(scene, picture)
     for name, value in settings.items():
         setattr(camera.data, name, value)
@@ -167,7 +167,8 @@ def test_nearer_to_the_camera_it_is_wider(scene, picture, part):
 def test_pressure_is_read_along_the_curve(scene, picture, part):
     drawing = draw(part, on_plane((100, 100), (300, 100)), kind="BEZIER", radius=[0.01, 0.05])
     store(drawing, 0, "resolution", np.array(4))
-    np.testing.assert_allclose(read.strokes(scene, picture, "", HORIZON)[0].widths / 320, [0.01, 0.02, 0.03, 0.04, 0.05])
+    widths = read.strokes(scene, picture, "", HORIZON)[0].widths
+    np.testing.assert_allclose(widths / 320, [0.01, 0.02, 0.03, 0.04, 0.05], rtol=1e-5)
 
 
 def test_what_is_hidden_does_not_count(scene, picture, part):
@@ -175,7 +176,10 @@ def test_what_is_hidden_does_not_count(scene, picture, part):
     group = picture.strokes.data.layer_groups.new("Group")
     picture.strokes.data.layers.move_to_layer_group(part, group)
     holder = picture.strokes
-    shows = lambda: (len(read.strokes(scene, picture, "", HORIZON)), read.is_drawn(scene, picture, "", HORIZON))  # noqa: E731
+
+    def shows():
+        return len(read.strokes(scene, picture, "", HORIZON)), read.is_drawn(scene, picture, "", HORIZON)
+
     for hide in (
         lambda hidden: setattr(part, "hide", hidden),
         lambda hidden: setattr(group, "hide", hidden),

@@ -45,7 +45,7 @@ def test_a_drawn_horizon_counts_for_every_layer(scene, picture, tree):
     draw(gp_layers.ensure(picture, "", HORIZON), on_plane((0, 300), (1280, 310)))
     tree.motion.type = "ripple"
     assert missing.of(picture, 0, strokes.replaced(scene, picture, tree)) == []
-    assert missing.of(picture, 0, set()) == ["Draw the horizon, or place it in View"]
+    assert missing.of(picture, 0, set()) == ["Draw the horizon, or turn it on in View"]
 
 
 def test_a_duplicated_layer_has_strokes_of_its_own(extension, picture, tree):

@@ -2,8 +2,8 @@
 
     python tests/blender/files/make.py --zip ZIP --output tests/blender/files/version_N.blend
 
-Runs in a Python that has the bpy package, with the extension's zip of that version: Blender 4.5, so that every later one
-reads the file. A file that is kept is never made anew: it is what people have.
+Runs in a Python that has the bpy package, with the extension's zip of that version: Blender 4.5, so that every later
+one reads the file. A file that is kept is never made anew: it is what people have.
 """
 
 import argparse
