@@ -21,6 +21,7 @@ class Progress:
     seconds: float = 0.0  # that the rendered frames took
     last: float = 0.0  # when the last frame came, by `now`
     cancelled: bool = False
+    layers: list[str] = field(default_factory=list)  # their names, for the sentences that speak of layers[0]
     now: Callable[[], float] = time.monotonic
     said: Callable[[str], str] = str  # puts sentences into the person's language
 
@@ -34,14 +35,14 @@ class Progress:
                 what = event.get("what")
                 sentence = self.said("Preparing {what}, {share:.0%}") if what else self.said("Preparing, {share:.0%}")
                 self.message = sentence.format(what=what, share=share)
-            case {"event": "frame", "frame": int() as frame, "of": int() as of}:
+            case {"event": "frame", "of": int() as of}:
                 self.frames, self.of = self.frames + 1, of
                 self.share = min(1.0, self.frames / max(of, 1))
                 self.last = self.now()
                 if not event.get("kept"):
                     self.rendered += 1
                     self.seconds += seconds if isinstance(seconds := event.get("seconds"), int | float) else 0
-                self.message = self.said("Frame {frame}, {count} of {of}").format(frame=frame, count=self.frames, of=of)
+                self.message = self.said("Frame {count} of {of}").format(count=self.frames, of=of)
             case {"event": "warning", "sentence": str() as message}:
                 self.warnings.append(message)
             case {"event": "error", "sentence": str() as message}:

@@ -13,6 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 EDITORS = ("VIEW_3D", "NODE_EDITOR")
 # Of a sidebar at scale 1, pixels: what its tabs and an icon take, a character on average, its width by default.
 BESIDE, CHARACTER, WIDTH = 85, 6.3, 280
+LABEL = 13  # characters that fit before a number
 
 
 class Part:
@@ -76,11 +77,15 @@ def draw(layout, group, *names: str) -> None:
 
 
 def label(kind) -> str:
-    """A property's name, with the unit that stands at the end of its description: Speed (m/s)."""
+    """A property's name, with the unit that stands at the end of its description: Speed (m/s).
+
+    Without it where Blender shows it beside the number, or where the sidebar would cut it off.
+    """
     found = re.search(r" \[([\w/]+)\]$", kind.description)
     shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
     name = iface_(kind.name)
-    return f"{name} ({found[1]})" if found and not shown else name
+    whole = f"{name} ({found[1]})" if found else name
+    return name if shown or len(whole) > LABEL else whole
 
 
 def fold(layout, identifier: str, text: str, closed: bool = True):

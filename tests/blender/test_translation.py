@@ -89,7 +89,7 @@ def test_the_panels_speak_the_language_of_the_interface(extension, scene, transl
     scene.stillwater_live.view = "picture"
     extension.bake.outdated.look(scene, picture)
     shown = texts()
-    for sentence in ("Engine ", "2 layers are selected", "Add a layer with Ripple: the water it floats on",
+    for sentence in ("2 layers are selected", "Add a layer with Ripple: the water it floats on",
                      "Choose its matte: which part of the picture it is", "Not baked yet"):
         assert f"~{sentence}" in shown, sentence
     picture.layers.clear()
@@ -113,7 +113,7 @@ def test_what_knows_nothing_of_blender_is_told_how(extension, translated):
     progress, report = extension.bake.job.Progress(said=lambda text: "~" + text), extension.bake.report
     assert progress.message == "~Starting"
     progress.take({"event": "frame", "frame": 3, "of": 4, "seconds": 2})
-    assert progress.message == "~Frame 3, 1 of 4" and progress.left() == "~6 s left"
+    assert progress.message == "~Frame 1 of 4" and progress.left() == "~6 s left"
     progress.end(0, "")
     assert progress.message == "~Baked 1 frame"
     found = report.Report(ready=1, missing=((2, 3),), why=(), said=lambda text: "~" + text)

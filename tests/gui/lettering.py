@@ -12,7 +12,9 @@ from mathutils import Matrix
 
 LIKENESS = 0.9  # correlation from which a place is looked at closer: the word itself gives 0.99
 DIFFERENT = 0.5  # of the ink: a place where one pixel differs by more holds another word, "Picture" for "Picture:"
-BLANK = (4, 1)  # px beside and above: empty around a word, so that "Layer" is not found in "Layers"
+# px that are empty above and below, left and right of a word: no more than between an icon and a word, no less than
+# between two words, so that "Tree" is found neither in "Still Tree" nor in "Tree in a Storm".
+BLANK = ((1, 1), (4, 6))
 FAINTEST = 4.0  # levels of 255: a flatter patch holds no word
 
 
@@ -35,7 +37,7 @@ def drawn(text: str) -> np.ndarray:
     buffer.dimensions = width * height * 4
     ink = np.array(buffer, np.uint8).reshape(height, width, 4)[::-1, :, 0] / 255
     rows, columns = np.flatnonzero(ink.max(1) > 0.2), np.flatnonzero(ink.max(0) > 0.2)
-    return np.pad(ink[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1], ((BLANK[1],) * 2, (BLANK[0],) * 2))
+    return np.pad(ink[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1], BLANK)
 
 
 def places(picture: np.ndarray, word: np.ndarray) -> list[tuple[int, int]]:

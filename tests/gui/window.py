@@ -134,7 +134,7 @@ class Window:
         yield  # what is under the mouse becomes active before it is pressed
         yield from self.press(ctrl=ctrl)
 
-    def drag(self, points: list[tuple[int, int]], steps: int = 30):
+    def drag(self, points: list[tuple[int, int]], steps: int = 12):
         """Draws with the left button held down, in straight lines from point to point."""
         yield from self.move(points[0])
         self._send("LEFTMOUSE", "PRESS")
@@ -145,9 +145,23 @@ class Window:
         self._send("LEFTMOUSE", "RELEASE")
         yield from self.settle()
 
+    def scroll_to(self, text: str, inside: Box):
+        """Turns the wheel over a sidebar until `text` is to be read there: from its top down."""
+        yield from self.move(inside.middle)
+        for turn in 40 * ["WHEELUPMOUSE"]:
+            self._send(turn, "PRESS")
+        yield from self.settle()
+        for _ in range(40):
+            if self.places(text, inside):
+                return
+            self._send("WHEELDOWNMOUSE", "PRESS")
+            self._send("WHEELDOWNMOUSE", "PRESS")
+            yield from self.settle()
+        raise AssertionError(f"“{text}” is nowhere to be read")
+
     def choose(self, field: str, item: str, inside: Box, beside: int):
         """Opens the menu `beside` the label of a field, and clicks on one of its items."""
-        yield from self.click(field, inside, beside=beside)
+        yield from self.click(field, inside, beside=beside, lowest=True)
         yield from self.click(item, inside=self.box("VIEW_3D"), lowest=True)
 
     def click_button(self, operator: str, near: tuple[int, int], reach: int = 120):

@@ -17,7 +17,7 @@ make_folder() {
   folder="$build/debian-$suite"
   [ "$(id -u)" = 0 ] || leave_out "$name" "a folder of Debian $suite is made by root only"
   install_packages mmdebstrap || leave_out "$name" "mmdebstrap can't be installed"
-  if once "debian-$suite" "$*"; then
+  if [ ! -d "$folder/etc" ] || once "debian-$suite" "$*"; then
     echo "making a folder of Debian $suite"
     rm -rf --one-file-system "$folder"
     # Its documentation and translations, half of the files, are never looked at; nor has it to survive a power cut.
