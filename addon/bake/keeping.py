@@ -1,12 +1,13 @@
 """What becomes of a bake: freed, collected for a farm, or written as a recipe."""
 
+import contextlib
 import shutil
 from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
-from .. import engine
+from .. import engine, preferences
 from ..compositor import frames, tree
 from . import collect, job, outdated, places
 from .operators import OfPicture
@@ -38,6 +39,9 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
             path.unlink()
         if (folder / CACHE).exists():
             shutil.rmtree(folder / CACHE)
+        if shared := preferences.of(context).cache():
+            with contextlib.suppress(ValueError):  # a picture that can't be read: nothing is known to be its own
+                engine.forget_layers(engine.parse(job.describe(context.scene, picture, folder), folder), shared)
         for empty in (places.frames_of(picture), folder):
             if empty.is_dir() and not any(empty.iterdir()):
                 empty.rmdir()

@@ -7,7 +7,7 @@ from stillwater import _stillwater as engine
 from stillwater.render.cache import FOLDER, Cache
 from stillwater.render.events import Preparing, Ready
 from stillwater.render.loop import Job, Order, render
-from stillwater.render.preview import prepare, reduced
+from stillwater.render.preview import forget, prepare, reduced
 from stillwater.render.renderer import Renderer
 
 
@@ -188,6 +188,16 @@ def test_what_a_render_cut_is_not_cut_again(scene):
     assert [event.what for event in events if isinstance(event, Preparing)] == ["making the layers small", "done"]
     events = list(prepare(load(path), 960, Cache(path.parent / FOLDER)))
     assert [event.what for event in events if isinstance(event, Preparing)] == ["done"]
+
+
+def test_layers_are_forgotten_at_every_size_and_no_others(scene):
+    path, other = scene(), scene(lambda recipe: recipe["layers"][2].update(feather=3), "other.json")
+    for longest in (960, 24):
+        prepared(path, longest)
+    kept = prepared(other).key
+    cache = Cache(path.parent / FOLDER)
+    forget(load(path), cache)
+    assert cache.find(kept) and len(list(cache.folder.glob("*/meta.json"))) == 2
 
 
 def test_plates_of_something_else_are_refused(scene, live):

@@ -46,13 +46,20 @@ class Live:
         if self._cache:
             self._cache.learn(self._learnt)
 
-    def take(self, recipe: Mapping, folder: str | os.PathLike[str], longest: int = 960) -> bool:
+    def take(
+        self,
+        recipe: Mapping,
+        folder: str | os.PathLike[str],
+        longest: int = 960,
+        cache: str | os.PathLike[str] | None = None,
+    ) -> bool:
         """Takes a recipe, a new one or one that has changed. Frames are those of the picture made small.
 
         Args:
             recipe: as JSON has it.
-            folder: where its relative paths start; the cache is beside it.
+            folder: where its relative paths start.
             longest: of the frames' sides, pixels; a smaller picture keeps its size.
+            cache: folder of the cache, the one that `serve` and bakes have; None = in `folder`.
 
         Returns:
             True where frames can be had: changed numbers cost a rebuild of the motions. False where something must
@@ -62,7 +69,7 @@ class Live:
             RecipeError: with all that is wrong; frames are those of the recipe before.
         """
         document = parse(recipe, folder)
-        place = Path(folder) / FOLDER
+        place = Path(cache) if cache else Path(folder) / FOLDER
         if self._cache is None or self._cache.folder != place:
             self._cache = Cache(place)
             self._cache.learn(self._learnt)

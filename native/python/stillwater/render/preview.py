@@ -54,12 +54,18 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
             if cache.find(key) is None:
                 stack = yield from _stack(document, cache, sources, still_there)
                 yield Preparing(0.9, "making the layers small")
-                cache.store(key, _reduced(stack, sources.size, longest, still_there))
+                small = _reduced(stack, sources.size, longest, still_there)
+                cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
     cache.keep_digests()
     if cache.trouble:
         raise Failed(cache.trouble)
     yield Preparing(1, "done")
     yield Ready(key, {str(path.resolve()): _file(path, digest) for path, digest in _located(document, sources)})
+
+
+def forget(document: Document, cache: Cache) -> None:
+    """Removes the layers of a recipe as it is now, at every size. Throws RecipeError, OSError."""
+    cache.forget(Sources(document, cache).key)
 
 
 def _key(stack: str, longest: int) -> str:
