@@ -49,13 +49,13 @@ def test_a_bake_keeps_its_layers_in_the_cache_folder(chosen, scene, tmp_path):
 
 def test_live_pictures_have_the_cache_of_the_bake(extension, chosen, scene, tmp_path, monkeypatch):
     """Cut once, found by both; freed from both."""
-    monkeypatch.setattr(extension.play.show, "seen", True)
     picture = stage.set_up(scene, tmp_path)
     cache = tmp_path / "cache"
     chosen.cache_folder = str(cache)
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
     (cut,) = cache.glob("*/meta.json")
     when = cut.with_name("colour0.npy").stat().st_mtime_ns
+    monkeypatch.setattr(extension.play.show, "seen", True)
     scene.frame_set(5)
     stage.wait(extension)
     scene.frame_set(6)
