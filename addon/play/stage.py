@@ -116,8 +116,11 @@ def named(sentence: str, recipe: dict) -> str:
 
 
 def preparation(recipe: dict) -> list:
-    """What of a recipe must be prepared: the rest are numbers."""
-    layers = [[layer.get(name) for name in ("matte", "fill", "feather")] for layer in recipe["layers"]]
+    """What of a recipe must be prepared: the rest are numbers. What drifts is made endless."""
+    layers = [
+        [*(layer.get(name) for name in ("matte", "fill", "feather", "follows")), layer["motion"]["type"] == "drift"]
+        for layer in recipe["layers"]
+    ]
     return [recipe.get("picture"), recipe["colour_space"], layers]
 
 

@@ -214,5 +214,5 @@ def test_the_prepared_picture_is_not_read_twice(server, large, recipe):
     server.ask(prepare(2, large, longest=100))
     _, before = server.hear("done")
     whats = [answer["what"] for answer in before if answer["event"] == "preparing"]
-    assert whats == ["making the layers small", "done"]
+    assert whats == ["making the layers small", "making clouds endless", "done"]
     assert np.asarray(Image.open(large.parent / "picture.png")).shape == (1440, 1920, 3)
