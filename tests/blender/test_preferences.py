@@ -70,8 +70,8 @@ def test_live_pictures_have_the_cache_of_the_bake(extension, chosen, scene, tmp_
 def test_another_cache_folder_counts_at_once_for_live_pictures(extension, chosen, scene, tmp_path, monkeypatch):
     monkeypatch.setattr(extension.play.show, "seen", True)
     picture = stage.set_up(scene, tmp_path)
-    for name in ("first", "second"):
-        chosen.cache_folder = str(tmp_path / name)
+    for name, size in (("first", 100), ("second", 200)):
+        chosen.cache_folder, chosen.preview_size = str(tmp_path / name), size
         scene.frame_set(scene.frame_current + 1)
         stage.wait(extension)
         scene.frame_set(scene.frame_current + 1)
