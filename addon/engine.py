@@ -62,15 +62,23 @@ def parse(recipe: dict, folder: Path):
     return _engine.parse(recipe, folder)
 
 
-def standing(document, read):
+def standing(document, read, folder: Path | None = None):
     """Looks up which frames of a document stand (the engine's render/standing.py). Throws ValueError, OSError.
 
-    `read`: what reads a frame's mark. Hashes of files are remembered as long as Blender runs.
+    `read`: what reads a frame's mark; `folder`: of the cache, where not in the document's. Hashes of files are
+    remembered as long as Blender runs.
     """
     from stillwater.render import cache, standing
 
-    folder = document.folder / cache.FOLDER
+    folder = folder or document.folder / cache.FOLDER
     return standing.standing(document, read=read, cache=_caches.setdefault(folder, cache.Cache(folder)))
+
+
+def forget_layers(document, folder: Path) -> None:
+    """Removes from the cache in `folder` what was prepared for a document. Throws ValueError, OSError."""
+    from stillwater.render import cache, preview
+
+    preview.forget(document, cache.Cache(folder))
 
 
 def read_mark(path: Path):

@@ -1,5 +1,6 @@
 """What becomes of a bake: freed, collected for a farm, or written as a recipe."""
 
+import contextlib
 import shutil
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 
-from .. import engine
+from .. import engine, preferences
 from ..compositor import frames, tree
 from . import collect, job, outdated, places
 from .operators import OfPicture
@@ -39,6 +40,9 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
             path.unlink()
         if (folder / CACHE).exists():
             shutil.rmtree(folder / CACHE)
+        if shared := preferences.of(context).cache():
+            with contextlib.suppress(ValueError):  # a picture that can't be read: nothing is known to be its own
+                engine.forget_layers(engine.parse(job.describe(context.scene, picture, folder), folder), shared)
         for empty in (places.frames_of(picture), folder):
             if empty.is_dir() and not any(empty.iterdir()):
                 empty.rmdir()

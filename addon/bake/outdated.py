@@ -13,7 +13,7 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .. import engine, versions
+from .. import engine, preferences, versions
 from ..compositor import tree as node
 from ..recipe.animation import facts_of
 from ..ui import redraw
@@ -117,7 +117,8 @@ def _steps(known: _Picture, scene, picture) -> Iterator[bool]:
             return
         recipe = job.describe(scene, picture, folder)
         yield False
-        standing = engine.standing(engine.parse(recipe, folder), lambda path: _mark(known, path))
+        cache = preferences.of(bpy.context).cache()
+        standing = engine.standing(engine.parse(recipe, folder), lambda path: _mark(known, path), cache)
         found = []
         for frames in standing.all():
             found.append(frames)
