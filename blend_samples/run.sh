@@ -42,8 +42,11 @@ if [ -n "$blender" ] && ! command -v "$blender" >/dev/null; then
 fi
 
 prepare_engine || exit 1
-prepare_blender || exit 1
-prepare_extension || exit 1
+if [ -n "$blender" ]; then
+  prepare_extension "$blender" || exit 1
+else
+  prepare_blender && prepare_extension || exit 1
+fi
 
 python="$build/venv/bin/python"
 work="$build/samples/$sample"

@@ -14,6 +14,7 @@ from .. import engine, preferences, strokes, versions
 from ..compositor import tree as node
 from ..properties import image
 from ..recipe.animation import Animation
+from ..recipe.sentences import named
 from ..recipe.write import frames_to_sample, recipe_of
 from ..ui import redraw
 from . import places
@@ -75,7 +76,7 @@ def start(scene, picture, fresh: bool = False, frames: tuple[int, int] | None = 
     command += ["--frames", f"{frames[0]}-{frames[1]}"] if frames else []
     command += ["--fresh"] if fresh else []
     node.describe(tree, scene, picture, places.locate_in(places.frames_of(picture))("."), layers_alone(picture))
-    _jobs[tree.session_uid] = Worker(command, bpy.app.tempdir), Progress()
+    _jobs[tree.session_uid] = Worker(command, bpy.app.tempdir), Progress(layers=[layer.name for layer in picture.layers])
     _tell(tree, _jobs[tree.session_uid][1])
     if not bpy.app.timers.is_registered(tick):
         bpy.app.timers.register(tick, first_interval=INTERVAL)
@@ -191,8 +192,9 @@ def _tell(tree, progress: Progress) -> None:
     """Puts the progress where panels read it."""
     _told[tree.session_uid] = time.monotonic()
     state = tree.stillwater
-    now = {"state": progress.state, "share": progress.share, "message": progress.message, "left": progress.left()}
-    for name, value in {**now, "warning": "\n".join(progress.warnings)}.items():
+    message, *warnings = [named(said, progress.layers) for said in (progress.message, *progress.warnings)]
+    now = {"state": progress.state, "share": progress.share, "message": message, "left": progress.left()}
+    for name, value in {**now, "warning": "\n".join(warnings)}.items():
         if getattr(state, name) != value:
             setattr(state, name, value)
     redraw.panels()

@@ -8,7 +8,7 @@ from . import outdated, status_bar
 
 class _Bake(sidebar.OfPicture):
     bl_label = "Bake"
-    bl_order = 6
+    bl_order = 7
     bl_options = set()
 
     def draw(self, context):
@@ -59,7 +59,7 @@ class STILLWATER_PT_node(sidebar.Part, bpy.types.Panel):
     bl_label = "Stillwater Node"
     bl_space_type = "NODE_EDITOR"
     bl_category = "Node"
-    bl_order = 8
+    bl_order = 9
 
     @classmethod
     def poll(cls, context):
@@ -85,7 +85,7 @@ class STILLWATER_PT_node(sidebar.Part, bpy.types.Panel):
 
 class _Frames(sidebar.OfPicture):
     bl_label = "Output"
-    bl_order = 7
+    bl_order = 8
 
     def draw(self, context):
         picture = context.scene.stillwater.active()

@@ -21,6 +21,7 @@ class Progress:
     seconds: float = 0.0  # that the rendered frames took
     last: float = 0.0  # when the last frame came, by `now`
     cancelled: bool = False
+    layers: list[str] = field(default_factory=list)  # their names, for the sentences that speak of layers[0]
     now: Callable[[], float] = time.monotonic
 
     def take(self, event: dict) -> None:
@@ -28,14 +29,14 @@ class Progress:
         match event:
             case {"event": "preparing", "share": float() | int() as share}:
                 self.message = f"Preparing {event.get('what') or ''}".strip() + f", {share:.0%}"
-            case {"event": "frame", "frame": int() as frame, "of": int() as of}:
+            case {"event": "frame", "of": int() as of}:
                 self.frames, self.of = self.frames + 1, of
                 self.share = min(1.0, self.frames / max(of, 1))
                 self.last = self.now()
                 if not event.get("kept"):
                     self.rendered += 1
                     self.seconds += seconds if isinstance(seconds := event.get("seconds"), int | float) else 0
-                self.message = f"Frame {frame}, {self.frames} of {of}"
+                self.message = f"Frame {self.frames} of {of}"
             case {"event": "warning", "sentence": str() as message}:
                 self.warnings.append(message)
             case {"event": "error", "sentence": str() as message}:

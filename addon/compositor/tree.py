@@ -118,10 +118,11 @@ def show(tree) -> list[int]:
         _show_at_rest(tree)
         return found
     image = _sequence(sources[0].image, frames.path_of(folder, state.name, found[0]), f"Stillwater {state.picture}")
-    offsets = frames.offsets(state.first, state.last, found if state.holds else range(state.first, state.last + 1))
+    last = state.last if state.loop or not state.holds else found[-1]  # beyond it Blender itself holds the last one
+    offsets = frames.offsets(state.first, last, found if state.holds else range(state.first, last + 1))
     for source, (socket, layer) in zip(sources, [("", LAYER), *wanted], strict=True):
         source.image = image
-        source.frame_start, source.frame_duration = state.first, state.last - state.first + 1
+        source.frame_start, source.frame_duration = state.first, last - state.first + 1
         source.use_auto_refresh, source.use_cyclic = True, state.loop
         _hold(tree, source, offsets)
         _link(tree, source, layer, [(socket, "Combined")] if socket else [(name, part) for part, name, _ in OUTPUTS])

@@ -1,4 +1,4 @@
-"""The list of layers, and what the active one is and does."""
+"""The list of layers with what the active one still misses; and, below the strokes, what it is and does."""
 
 from .. import strokes
 from ..ui import sidebar
@@ -24,14 +24,29 @@ class _Layers(sidebar.OfPicture):
         drawn = strokes.replaced(context.scene, picture, layer)
         for sentence in missing.of(picture, picture.active_layer, drawn):
             sidebar.say(context, self.layout, sentence, "ERROR")
+
+
+class _Layer(sidebar.OfPicture):
+    bl_label = "Layer"
+    bl_order = 3
+    bl_options = set()
+
+    @classmethod
+    def poll(cls, context):
+        picture = context.scene.stillwater.active()
+        return super().poll(context) and picture.active_layer < len(picture.layers)
+
+    def draw(self, context):
+        picture = context.scene.stillwater.active()
+        layer = picture.layers[picture.active_layer]
         self.layout.use_property_split = True
         self.layout.use_property_decorate = True
-        _draw_layer(self.layout, layer, drawn)
+        _draw_layer(self.layout, layer, strokes.replaced(context.scene, picture, layer))
 
 
 def _draw_list(layout, picture) -> None:
     row = layout.row()
-    row.template_list("STILLWATER_UL_layers", "", picture, "layers", picture, "active_layer", rows=6)
+    row.template_list("STILLWATER_UL_layers", "", picture, "layers", picture, "active_layer", rows=4)
     column = row.column(align=True)
     column.menu("STILLWATER_MT_add_layer", text="", icon="ADD")
     column.operator("stillwater.remove_layer", text="", icon="REMOVE")
@@ -125,4 +140,4 @@ def _draw_rest(layout, layer) -> None:
         sidebar.draw(part, layer.follows, "layer", *(("mirror",) if layer.follows.layer_id else ()))
 
 
-CLASSES = sidebar.in_both_editors("layers", _Layers)
+CLASSES = [*sidebar.in_both_editors("layers", _Layers), *sidebar.in_both_editors("layer", _Layer)]

@@ -8,7 +8,7 @@ from .presets import STILLWATER_PT_wind_presets
 
 class _Wind(sidebar.OfPicture):
     bl_label = "Wind"
-    bl_order = 3
+    bl_order = 4
 
     def draw_header_preset(self, context):
         row = self.layout.row()
@@ -26,7 +26,7 @@ class _Wind(sidebar.OfPicture):
 
 class _View(sidebar.OfPicture):
     bl_label = "View"
-    bl_order = 4
+    bl_order = 5
 
     def draw(self, context):
         picture = context.scene.stillwater.active()

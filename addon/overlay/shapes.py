@@ -9,7 +9,7 @@ from math import cos, radians, sin, sqrt
 
 from .water import Point, WaterPlane, grid
 
-GREEN, BLUE, YELLOW, ORANGE = (0.3, 0.9, 0.45), (0.35, 0.7, 1.0), (1.0, 0.9, 0.4), (1.0, 0.55, 0.15)
+ORANGE, BLUE, YELLOW, WHITE = (1.0, 0.45, 0.05), (0.35, 0.7, 1.0), (1.0, 0.9, 0.4), (0.95, 0.95, 0.95)
 AWAY = 0.45  # how long a way away from the viewer is drawn, of one to the right
 PIECES = 24  # of a sway line
 STRONG, FAINT = 1.0, 0.45
@@ -48,9 +48,9 @@ def sway_lines(subject: Subject) -> Iterator[Lines]:
         root, tip = layer["motion"]["armature"]
         points = [_between(root, tip, i / PIECES) for i in range(PIECES + 1)]
         alpha = STRONG if layer["name"] == subject.active else FAINT
-        yield _chain(GREEN, 1, [root, tip], 0.4 * alpha)
-        yield _chain(GREEN, 3, subject.moved(layer["name"], points), alpha)
-        yield _cross(GREEN, root, 0.008 * subject.size[0], alpha)
+        yield _chain(ORANGE, 1, [root, tip], 0.4 * alpha)
+        yield _chain(ORANGE, 3, subject.moved(layer["name"], points), alpha)
+        yield _cross(ORANGE, root, 0.008 * subject.size[0], alpha)
 
 
 def waterlines(subject: Subject) -> Iterator[Lines]:
@@ -109,7 +109,7 @@ def outline(subject: Subject, lines) -> Iterator[Lines]:
     """Lines of outline.outline(), of the active layer at the live picture's scale."""
     scale = subject.live.scale
     ends = [(x / scale, y / scale) for line in lines.tolist() for x, y in line]
-    yield Lines(ORANGE, 1.5, ends, [0.9] * len(ends))
+    yield Lines(WHITE, 1.5, ends, [0.9] * len(ends))
 
 
 def _moving(subject: Subject, kind: str) -> list[dict]:

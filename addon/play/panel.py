@@ -7,7 +7,7 @@ from . import show
 
 class _Live(sidebar.OfPicture):
     bl_label = "Live"
-    bl_order = 5
+    bl_order = 6
 
     def draw_header(self, context):
         self.layout.prop(context.scene.stillwater_live, "on", text="")

@@ -6,11 +6,11 @@
 """
 
 import json
-import re
 from collections.abc import Callable
 from pathlib import Path
 
 from .. import engine
+from ..recipe.sentences import named
 from . import server
 
 
@@ -68,7 +68,7 @@ class Stage:
             self.problem, self.taken = "", self.taken + ready
         except (ValueError, OSError) as error:
             server.cancel(self._request)
-            self._asked, self.share, self.problem = "", None, named(str(error), self.recipe)
+            self._asked, self.share, self.problem = "", None, named(str(error), self._names())
             return
         if ready:
             server.cancel(self._request)
@@ -94,6 +94,9 @@ class Stage:
         self._gave_up, self._why = self._asked, sentence
         self._asked, self.share, self.problem = "", None, sentence
 
+    def _names(self) -> list[str]:
+        return [layer["name"] for layer in self.recipe["layers"]]
+
     def _told(self, event: dict) -> None:
         """An answer of the server."""
         match event:
@@ -104,14 +107,8 @@ class Stage:
                 self._asked, self.share = "", None
                 self._take()
             case {"event": "error", "sentence": str() as sentence}:
-                self._give_up(named(sentence, self.recipe))
+                self._give_up(named(sentence, self._names()))
         self._changed()
-
-
-def named(sentence: str, recipe: dict) -> str:
-    """A sentence of the engine's with the layers' names for their places."""
-    names = [layer["name"] for layer in recipe["layers"]]
-    return re.sub(r"layers\[(\d+)\]\.?", lambda place: f"{names[int(place[1])]}, ", sentence)
 
 
 def preparation(recipe: dict) -> list:

@@ -14,8 +14,6 @@ class _Main(sidebar.Part):
         layout, settings = self.layout, context.scene.stillwater
         if engine.problem():
             sidebar.say(context, layout, engine.problem(), "ERROR")
-        else:
-            layout.label(text=f"Engine {engine.version()}", icon="CHECKMARK")
         if migrate.newer(context.scene):
             sentence = iface_("A newer Stillwater made this scene; update to keep all of it")
             sidebar.say(context, layout, sentence, "ERROR")

@@ -12,6 +12,7 @@ import bpy
 EDITORS = ("VIEW_3D", "NODE_EDITOR")
 # Of a sidebar at scale 1, pixels: what its tabs and an icon take, a character on average, its width by default.
 BESIDE, CHARACTER, WIDTH = 85, 6.3, 280
+LABEL = 13  # characters that fit before a number
 
 
 class Part:
@@ -75,10 +76,14 @@ def draw(layout, group, *names: str) -> None:
 
 
 def label(kind) -> str:
-    """A property's name, with the unit that stands at the end of its description: Speed (m/s)."""
+    """A property's name, with the unit that stands at the end of its description: Speed (m/s).
+
+    Without it where Blender shows it beside the number, or where the sidebar would cut it off.
+    """
     found = re.search(r" \[([\w/]+)\]$", kind.description)
     shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
-    return f"{kind.name} ({found[1]})" if found and not shown else kind.name
+    whole = f"{kind.name} ({found[1]})" if found else kind.name
+    return kind.name if shown or len(whole) > LABEL else whole
 
 
 def fold(layout, identifier: str, text: str, closed: bool = True):

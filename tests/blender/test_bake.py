@@ -91,7 +91,7 @@ def test_a_second_bake_shows_the_new_frames(extension, scene, worker, state, tmp
 @pytest.mark.parametrize(
     "mode, sentence",
     [
-        ("refuse", "layers[0].motion.frequency: 0 is not above 0 (Hz)"),
+        ("refuse", "all, motion.frequency: 0 is not above 0 (Hz)"),
         ("give up", "no space left"),
         ("crash", "The worker was ended by SIGSEGV: Segfault ahead"),
         ("leave", "The worker ended with code 3 and gave no reason"),

@@ -120,7 +120,7 @@ def test_a_bake_that_fails_is_said_and_the_render_goes_on(scene, prefer, capfd):
     prefer("BAKE")
     scene.stillwater.pictures[0].layers[0].motion.type = "bob"
     still(scene, 6)
-    assert "Stillwater: lake: layers[0].motion" in capfd.readouterr().out
+    assert "Stillwater: lake: tree, motion" in capfd.readouterr().out
 
 
 def test_driven_numbers_are_said_to_be_unknown(scene, prefer, capfd):

@@ -45,6 +45,16 @@ def test_a_missing_frame_shows_the_nearest(extension, scene, baked, tmp_path):
         same(render(scene, frame, tmp_path), frames[frame])
 
 
+def test_beyond_the_last_frame_it_is_held_without_a_key(extension, scene, baked, tmp_path):
+    tree, frames = baked
+    for number in (7, 8):
+        (tmp_path / "frames" / f"frame_000{number}.exr").unlink()
+    extension.compositor.tree.show(tree)
+    assert tree.animation_data is None or extension.versions.channelbags(tree.animation_data) == []
+    for frame, shown in {5: 5, 6: 6, 7: 6, 8: 6, 9: 6}.items():
+        same(render(scene, frame, tmp_path), frames[shown])
+
+
 def test_without_frames_it_gives_nothing(extension, scene, baked, tmp_path):
     for file in (tmp_path / "frames").iterdir():
         file.unlink()

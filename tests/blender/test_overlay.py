@@ -203,12 +203,12 @@ def test_what_is_drawn_follows_frame_switch_and_layer(room, scene, live):
     assert room.draw.of(scene, live) is first  # another redraw of the same
     scene.frame_set(7)
     second = room.draw.of(scene, live)
-    bent = [line for line in second if line.width == 3 and line.colour == room.shapes.GREEN]
-    assert bent and bent != [line for line in first if line.width == 3 and line.colour == room.shapes.GREEN]
+    bent = [line for line in second if line.width == 3 and line.colour == room.shapes.ORANGE]
+    assert bent and bent != [line for line in first if line.width == 3 and line.colour == room.shapes.ORANGE]
     colours = {line.colour for line in second}
-    assert colours == {room.shapes.GREEN, room.shapes.YELLOW, room.shapes.ORANGE}
+    assert colours == {room.shapes.ORANGE, room.shapes.YELLOW, room.shapes.WHITE}
     overlay.sway_lines = False
-    assert {line.colour for line in room.draw.of(scene, live)} == colours - {room.shapes.GREEN}
+    assert {line.colour for line in room.draw.of(scene, live)} == colours - {room.shapes.ORANGE}
     overlay.wind = overlay.outline = False
     assert room.draw.of(scene, live) == []
 
@@ -217,7 +217,7 @@ def test_with_live_off_lines_are_drawn_at_rest(room, scene, live):
     scene.stillwater_live.on = False
     live.layers[0].motion.sway.armature_tip = (12, 2)
     scene.frame_set(6)
-    tips = [line.ends[-1] for line in room.draw.of(scene, live) if line.colour == room.shapes.GREEN]
+    tips = [line.ends[-1] for line in room.draw.of(scene, live) if line.colour == room.shapes.ORANGE]
     assert [12, 2] in tips
 
 

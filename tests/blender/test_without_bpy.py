@@ -64,6 +64,8 @@ sys.modules["bpy"] = None
 sys.path.insert(0, {str(ADDON)!r})
 import recipe.read, recipe.write
 from recipe.numbers import plain
+from recipe.sentences import named
+assert named("layers[1].fill: none; layers[9]: gone", ["Oak", "Lake"]) == "Lake, fill: none; layers[9]: gone"
 assert plain(0.6000000238418579) == 0.6
 assert recipe.write.frames_to_sample(10, 20) == range(1, 22)
 assert recipe.write.frames_to_sample(-3, 0) == range(-3, 3)
