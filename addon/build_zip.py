@@ -17,7 +17,7 @@ from pathlib import Path
 
 ADDON = Path(__file__).resolve().parent
 BLENDERS_OWN = {"numpy"}
-LEFT_OUT = shutil.ignore_patterns("build_zip.py", "__pycache__", "*.pyc")
+LEFT_OUT = shutil.ignore_patterns("build_zip.py", "README.md", "guide", "__pycache__", "*.pyc")
 
 
 def version() -> str:

@@ -3,7 +3,7 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from . import recipes, server, show
+from . import plane, recipes, server, show
 
 _rendering = False
 _stale = True  # something changed since the recipes were last looked at
@@ -121,5 +121,7 @@ def unregister():
     for name, handler in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(handler)
     show.put_back()
+    if bpy.app.timers.is_registered(plane.rest):
+        bpy.app.timers.unregister(plane.rest)
     server.end()
     show.forget()

@@ -7,6 +7,7 @@ looked up by its name at every frame: undo and loading may have taken it away.
 import bpy
 
 PREFIX = "Stillwater Live "
+REST = 0.3  # s
 
 
 def show(picture, pixels) -> None:
@@ -16,6 +17,21 @@ def show(picture, pixels) -> None:
     image.pixels.foreach_set(pixels.ravel())
     if picture.plane.data != image:
         picture.plane.data = image
+    if not bpy.app.timers.is_registered(rest):
+        bpy.app.timers.register(rest, first_interval=REST)
+
+
+def rest() -> float | None:
+    """Packs live images once nothing plays; called by a timer.
+
+    Before it saves or quits, Blender asks what is to become of images that were changed: of those that are not packed.
+    """
+    if any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows):
+        return REST
+    for image in bpy.data.images:
+        if is_live(image) and image.is_dirty:
+            image.pack()
+    return None
 
 
 def clear(picture) -> None:

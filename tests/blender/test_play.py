@@ -210,6 +210,14 @@ def test_a_saved_file_holds_the_original(extension, scene, shown, tmp_path):
     assert not shows_original(scene.stillwater.pictures[0])
 
 
+def test_at_rest_blender_has_no_changed_image_to_ask_about(extension, scene, shown):
+    image, before = shown.plane.data, plane_pixels(shown)
+    assert image.is_dirty and bpy.app.timers.is_registered(extension.play.plane.rest)
+    assert extension.play.plane.rest() is None
+    assert not image.is_dirty and shown.plane.data == image
+    np.testing.assert_array_equal(plane_pixels(shown), before)
+
+
 def test_undo_and_redo_leave_the_right_frame(extension, scene, shown):
     bpy.ops.ed.undo_push(message="before")
     before = plane_pixels(shown)

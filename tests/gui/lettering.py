@@ -4,6 +4,8 @@ Words are drawn with Blender's own font at the size of its buttons and looked fo
 (Lewis, Fast Normalized Cross-Correlation, 1995), so no test has to know where a panel puts its buttons.
 """
 
+from functools import cache
+
 import blf
 import bpy
 import gpu
@@ -18,6 +20,7 @@ BLANK = ((1, 1), (4, 6))
 FAINTEST = 4.0  # levels of 255: a flatter patch holds no word
 
 
+@cache
 def drawn(text: str) -> np.ndarray:
     """`text` as Blender writes it on a button: H x W, 0..1, rows top to bottom, blank around it."""
     preferences = bpy.context.preferences
@@ -65,7 +68,7 @@ def correlation(picture: np.ndarray, word: np.ndarray) -> np.ndarray:
     """Correlation coefficient of `word` with each patch of `picture` of its size; 0 where a patch is flat."""
     word = word - word.mean()
     height, width = word.shape
-    size = [have + need - 1 for have, need in zip(picture.shape, word.shape)]
+    size = [-(-(have + need - 1) // 64) * 64 for have, need in zip(picture.shape, word.shape)]  # quick to transform
     product = np.fft.irfft2(np.fft.rfft2(picture, size) * np.fft.rfft2(word[::-1, ::-1], size), size)
     product = product[height - 1 : picture.shape[0], width - 1 : picture.shape[1]]
 

@@ -1,6 +1,7 @@
 """A new user's first minutes: from an empty Blender to a tree that sways in the compositor, by mouse and keys alone."""
 
 import json
+import tempfile
 from pathlib import Path
 
 import bpy
@@ -11,6 +12,8 @@ from window import Box
 
 SAMPLE = Path(__file__).resolve().parents[2] / "blend_samples" / "tree"
 SWAY_LINE = [(808, 600), (809, 75)]  # root and tip in the sample's picture, px
+CROWN, MEADOW = (560, 200, 740, 330), (150, 690, 400, 780)  # left, top, right, bottom: swaying, standing still
+TABS = 30  # px, beside the panels of a sidebar
 FIELD = 80  # px from the middle of a label to its field
 
 
@@ -32,6 +35,19 @@ def on_screen(window, x: float, y: float) -> tuple[int, int]:
     region = next(region for region in area.regions if region.type == "WINDOW")
     seen = location_3d_to_region_2d(region, area.spaces.active.region_3d, place)
     return round(box.x + seen.x), round(box.y + seen.y)
+
+
+def part(window, corners) -> Box:
+    """Where a part of the picture (left, top, right, bottom) is on the screen."""
+    left, top = on_screen(window, *corners[:2])
+    right, bottom = on_screen(window, *corners[2:])
+    return Box(left, bottom, right - left, top - bottom)
+
+
+def green(window) -> int:
+    """How many pixels the sway line has on the screen."""
+    seen = window.pixels(part(window, (700, 60, 920, 620))).astype(int)
+    return int(((seen[..., 1] - seen[..., 0] > 70) & (seen[..., 1] - seen[..., 2] > 50)).sum())
 
 
 def right_end(sidebar) -> int:
@@ -63,8 +79,9 @@ def test_a_tree_is_added_from_the_presets(window):
     sidebar = window.box("VIEW_3D", "UI")
     row = yield from window.see("Background", sidebar)
     yield from window.click((right_end(sidebar), row[1]))
-    yield from window.see("Tree in a Storm")
+    last = yield from window.see("Clouds in a Storm")
     yield from window.screenshot("03-presets")
+    yield from window.cut_out("presets", Box(sidebar.x, last[1] - 20, last[0] + 100 - sidebar.x, row[1] + 40 - last[1]))
     yield from window.click("Tree")
     yield from window.until(lambda: len(picture().layers) == 2, 10, "no layer")
     assert picture().layers[0].motion.type == "sway"
@@ -92,12 +109,58 @@ def test_its_sway_line_is_drawn_with_the_mouse(window):
     yield from window.until(lambda: bpy.context.mode == "OBJECT", 10, "still in draw mode")
 
 
+def test_the_play_button_shows_it_in_motion_without_a_bake(window):
+    live = lambda: picture().plane.data != picture().image  # noqa: E731
+    yield from window.until(live, 60, "the layers are not cut out")
+    yield from window.settle()
+    crown, meadow = part(window, CROWN), part(window, MEADOW)
+    tree, still, moved = window.pixels(crown), window.pixels(meadow), []
+    yield from window.key("SPACE", at=on_screen(window, 300, 300))
+    assert window.plays
+    for _ in range(3):
+        yield 0.3
+        moved.append(np.abs(window.pixels(crown) - tree.astype(float)).mean())
+        assert np.array_equal(window.pixels(meadow), still)
+    yield from window.screenshot("08-playing")
+    yield from window.key("SPACE")
+    assert not window.plays
+    assert min(moved) > 1 and len(set(moved)) > 1, moved
+    assert bpy.context.scene.frame_current > 1
+    assert state().state == "none" and not state().there, (state().state, state().there)
+
+
+def test_a_number_that_changes_is_seen_at_once(window):
+    sidebar = window.box("VIEW_3D", "UI")
+    before = window.pixels(part(window, CROWN))
+    yield from window.scroll_to("Amount", sidebar)
+    yield from window.fill("Amount", "2", sidebar, beside=FIELD)
+    assert picture().layers[0].motion.sway.amount == 2
+    assert np.abs(window.pixels(part(window, CROWN)) - before.astype(float)).mean() > 1
+    yield from window.screenshot("09-stronger")
+
+
+def test_overlays_are_switched_in_blender_s_popover(window):
+    assert green(window) > 200
+    yield from window.cut_out("sway-line", window.box("VIEW_3D"), 0.6)
+    header = window.box("VIEW_3D", "HEADER")
+    along = [(x, header.middle[1]) for x in range(header.x + header.width - 10, header.middle[0], -10)]
+    switch = yield from window.point_at("overlay.show_overlays", along)
+    yield from window.click((switch[0] + 18, switch[1]))
+    words = yield from window.see("Sway Lines")
+    yield from window.screenshot("10-overlays")
+    yield from window.click(words)
+    yield from window.key("ESC")
+    yield from window.until(lambda: green(window) == 0, 20, lambda: f"{green(window)} green pixels are left")
+    yield from window.screenshot("11-without-sway-line")
+    bpy.context.scene.stillwater_overlay.sway_lines = True
+
+
 def test_the_bake_runs_beside_blender_and_tells_how_far_it_is(window):
     sidebar = window.box("VIEW_3D", "UI")
     yield from window.scroll_to("Output", sidebar)
     yield from window.click("Bake", sidebar, lowest=True)
     yield from window.until(lambda: state().share > 0.05, 60, lambda: f"{state().state}: {state().message}")
-    yield from window.screenshot("08-baking")
+    yield from window.screenshot("12-baking")
     assert state().state == "running"
     recipe = json.loads((Path(bpy.path.abspath(state().folder)).parent / "recipe.json").read_text())
     drawn = np.array(recipe["layers"][0]["motion"]["armature"])
@@ -107,18 +170,32 @@ def test_the_bake_runs_beside_blender_and_tells_how_far_it_is(window):
 def test_the_cross_cancels_it_and_keeps_what_is_done(window):
     sidebar = window.box("VIEW_3D", "UI")
     bake = yield from window.see("Bake", sidebar)
-    yield from window.click_button("bpy.ops.stillwater.cancel(", near=(right_end(sidebar), bake[1]))
+    yield from window.click_button("stillwater.cancel(", near=(right_end(sidebar), bake[1]))
     yield from window.until(lambda: state().state != "running", 10, "it goes on")
     assert state().state == "cancelled", state().state
     assert list(Path(bpy.path.abspath(state().folder)).glob("*.exr"))
-    yield from window.screenshot("09-cancelled")
+    yield from window.screenshot("13-cancelled")
 
 
 def test_fewer_frames_are_baked(window):
     yield from window.fill("End", "24", window.box("DOPESHEET_EDITOR", "HEADER"))
     yield from window.click("Bake", window.box("VIEW_3D", "UI"), lowest=True)
     yield from window.until(lambda: state().state == "done", 60, lambda: f"{state().state}: {state().message}")
-    yield from window.screenshot("10-baked")
+    yield from window.screenshot("14-baked")
+
+
+def test_what_is_out_of_date_is_told_until_undo(window):
+    sidebar = window.box("VIEW_3D", "UI")
+    yield from window.scroll_to("Amount", sidebar)
+    yield from window.fill("Amount", "1", sidebar, beside=FIELD)
+    yield from window.scroll_to("To Sequencer", sidebar)
+    label = lambda: next(n.label for n in bpy.context.scene.compositing_node_group.nodes if n.type == "GROUP")  # noqa: E731
+    yield from window.until(lambda: "out of date" in label(), 20, label)
+    yield from window.screenshot("15-out-of-date")
+    end = yield from window.see("To Sequencer", sidebar)
+    yield from window.cut_out("bake", Box(sidebar.x, end[1] - 20, sidebar.width - TABS, 150))
+    yield from window.key("Z", at=window.box("VIEW_3D").middle, ctrl=True)
+    yield from window.see("All 24 frames are ready", sidebar)
 
 
 def test_the_compositor_shows_the_node_and_its_picture(window):
@@ -132,4 +209,63 @@ def test_the_compositor_shows_the_node_and_its_picture(window):
     yield from window.until(colourful, 30, "the viewer shows no picture")
     yield from window.key("HOME", at=viewer.middle)
     yield from window.key("HOME", at=window.box("NODE_EDITOR").middle)
-    yield from window.screenshot("11-compositor")
+    yield from window.screenshot("16-compositor")
+    nodes = window.box("NODE_EDITOR")
+    yield from window.cut_out("node", Box(nodes.middle[0] - 350, nodes.y + 90, 700, 260), 0.7)
+
+
+def test_the_file_is_saved_with_its_frames_beside_it(window):
+    path = Path(tempfile.mkdtemp()) / "meadow.blend"
+    yield from window.key("S", at=window.box("NODE_EDITOR").middle, ctrl=True)
+    yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
+    yield from window.screenshot("17-save")
+    yield from window.open_file(path, "Save Blender File")
+    yield from window.until(path.exists, 20, "no file")
+    assert state().folder.startswith("//stillwater"), state().folder
+    assert len(list((path.parent / "stillwater").rglob("*.exr"))) >= 24
+
+
+def test_undo_goes_back_to_the_start_step_by_step(window):
+    yield from window.click("Layout")
+    steps = 0
+    while picture() is not None:
+        layers = len(picture().layers)
+        yield from window.key("Z", at=window.box("VIEW_3D").middle, ctrl=True)
+        steps += 1
+        assert steps < 40, "the picture never goes"
+        assert picture() is None or len(picture().layers) in (layers, layers - 1)
+    assert not [thing for thing in bpy.data.objects if thing.type in ("EMPTY", "GREASEPENCIL")]
+    assert bpy.context.scene.view_settings.view_transform == "AgX"
+    yield from window.see("Open Picture", window.box("VIEW_3D", "UI"))
+    yield from window.screenshot("18-undone")
+
+
+def test_redo_brings_all_of_it_again(window):
+    steps = 0
+    while bpy.ops.ed.redo.poll():
+        yield from window.key("Z", at=window.box("VIEW_3D").middle, ctrl=True, shift=True)
+        steps += 1
+        assert steps < 40, "it never ends"
+    assert [layer.name for layer in picture().layers] == ["Tree", "Background"]
+    assert picture().plane.visible_get() and picture().layers[0].motion.sway.amount == 2
+    assert bpy.context.scene.frame_end == 24 and bpy.context.mode == "OBJECT"
+    yield from window.until(lambda: picture().plane.data != picture().image, 60, "it is not live")
+    yield from window.until(lambda: green(window) > 200, 20, "no sway line")
+    yield from window.screenshot("19-redone")
+
+
+def test_a_lake_is_opened_beside_it_from_its_recipe(window):
+    sidebar = window.box("VIEW_3D", "UI")
+    yield from window.scroll_to("Stillwater", sidebar)
+    title = yield from window.see("Stillwater", sidebar)
+    row = [(x, title[1] - 30) for x in range(right_end(sidebar), sidebar.x, -8)]
+    yield from window.point_at("stillwater.load_recipe", row)
+    yield from window.press()
+    yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
+    yield from window.open_file(SAMPLE.parent / "lake" / "recipe.json", "Open Recipe")
+    yield from window.until(lambda: len(bpy.context.scene.stillwater.pictures) == 2, 30, "no second picture")
+    yield from window.scroll_to("water", window.box("VIEW_3D", "UI"))
+    yield from window.click("water", window.box("VIEW_3D", "UI"))
+    yield from window.until(lambda: picture().plane.data != picture().image, 60, "it is not live")
+    yield from window.screenshot("20-lake")
+    yield from window.cut_out("water", window.box("VIEW_3D"), 0.6)

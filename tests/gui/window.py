@@ -33,6 +33,10 @@ class Box(NamedTuple):
     def middle(self) -> tuple[int, int]:
         return self.x + self.width // 2, self.y + self.height // 2
 
+    @property
+    def top(self) -> int:
+        return self.y + self.height
+
 
 class Window:
     def __init__(self, screens: Path):
@@ -40,6 +44,11 @@ class Window:
         self._screens = screens
         self._mouse = (0, 0)
         bpy.context.preferences.view.show_tooltips = False  # they would come and go with the machine's speed
+
+    @property
+    def plays(self) -> bool:
+        """Whether the animation runs."""
+        return self._window.screen.is_animation_playing
 
     @property
     def _window(self):
@@ -62,6 +71,16 @@ class Window:
         yield from self.settle()
         path = self._screens / f"{name}.png"
         subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30)
+
+    def cut_out(self, name: str, box: Box, share: float = 1):
+        """Leaves a part of the screen, made smaller to a `share` of it, as guide/NAME.jpg among the screens."""
+        yield from self.settle()
+        folder = self._screens / "guide"
+        folder.mkdir(exist_ok=True)
+        top = bpy.context.window_manager.windows[0].height - box.y - box.height
+        crop = ["-crop", f"{box.width}x{box.height}+{box.x}+{top}", "+repage", "-resize", f"{share:.0%}"]
+        command = ["import", "-window", "root", *crop, "-quality", "82", str(folder / f"{name}.jpg")]
+        subprocess.run(command, check=True, timeout=30)
 
     def area(self, kind: str):
         """The largest editor of a kind, as Blender names it ("VIEW_3D")."""
@@ -134,7 +153,7 @@ class Window:
         yield  # what is under the mouse becomes active before it is pressed
         yield from self.press(ctrl=ctrl)
 
-    def drag(self, points: list[tuple[int, int]], steps: int = 12):
+    def drag(self, points: list[tuple[int, int]], steps: int = 6):
         """Draws with the left button held down, in straight lines from point to point."""
         yield from self.move(points[0])
         self._send("LEFTMOUSE", "PRESS")
@@ -146,16 +165,18 @@ class Window:
         yield from self.settle()
 
     def scroll_to(self, text: str, inside: Box):
-        """Turns the wheel over a sidebar until `text` is to be read there: from its top down."""
+        """Turns the wheel over a sidebar until `text` is to be read there: where it is not yet, from its top down."""
+        if self.places(text, inside):
+            return
         yield from self.move(inside.middle)
         for turn in 40 * ["WHEELUPMOUSE"]:
             self._send(turn, "PRESS")
         yield from self.settle()
-        for _ in range(40):
+        for _ in range(20):
             if self.places(text, inside):
                 return
-            self._send("WHEELDOWNMOUSE", "PRESS")
-            self._send("WHEELDOWNMOUSE", "PRESS")
+            for turn in 4 * ["WHEELDOWNMOUSE"]:
+                self._send(turn, "PRESS")
             yield from self.settle()
         raise AssertionError(f"“{text}” is nowhere to be read")
 
@@ -165,33 +186,33 @@ class Window:
         yield from self.click(item, inside=self.box("VIEW_3D"), lowest=True)
 
     def click_button(self, operator: str, near: tuple[int, int], reach: int = 120):
-        """Clicks on a button that has no text: looks above and below a place until `operator` is under the mouse.
+        """Clicks on a button that has no text, above or below a place. `operator`: its call, `stillwater.cancel(`."""
+        steps = [step for distance in range(0, reach, 8) for step in {distance, -distance}]
+        yield from self.point_at(operator, [(near[0], near[1] + step) for step in steps])
+        yield from self.press()
 
-        `operator` is how its call begins in Python: `bpy.ops.stillwater.layer(action='add'`.
-        """
+    def point_at(self, button: str, places: list[tuple[int, int]]):
+        """Moves the mouse along places until it is over a button whose call or property holds `button`; returns where."""
         met = set()
-        for distance in range(0, reach, 8):
-            for y in {near[1] - distance, near[1] + distance}:
-                yield from self.move((near[0], y))
-                yield
-                command = self._under_mouse()
-                if command.startswith(operator):
-                    yield from self.press()
-                    return
-                met.add(command)
-        raise AssertionError(f"{operator} is not near {near}, but {sorted(met)}")
+        for place in places:
+            yield from self.move(place)
+            yield
+            met |= {over := self._under_mouse()}
+            if button in over:
+                return place
+        raise AssertionError(f"{button} is not near {places[0]}, but {sorted(met)}")
 
     def _under_mouse(self) -> str:
-        """The call of the button under the mouse; empty where there is none that calls an operator."""
+        """The call of the button under the mouse, or where its property is; empty where there is none."""
         for area in self._window.screen.areas:
             for region in area.regions:  # a sidebar lies over the main region
                 x, y = self._mouse[0] - self._window.x - region.x, self._mouse[1] - self._window.y - region.y
                 if 0 <= x < region.width and 0 <= y < region.height and region.type != "WINDOW":
                     with bpy.context.temp_override(window=self._window, area=area, region=region):
-                        if not bpy.ops.ui.copy_python_command_button.poll():
-                            return ""
-                        bpy.ops.ui.copy_python_command_button()
-                    return bpy.context.window_manager.clipboard
+                        for copy in (bpy.ops.ui.copy_python_command_button, bpy.ops.ui.copy_data_path_button):
+                            if copy.poll():
+                                copy()
+                                return bpy.context.window_manager.clipboard
         return ""
 
     # -- keys

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The window tests, in a folder of Debian sid: no release of Debian has a Blender that the extension runs in. The engine
 # is built in there, for that Blender's Python. Screenshots of every step land in build/screens/. Where the folder can't
-# be made, the report holds one test that says so and is left out.
+# be made, the report holds one test that says so and is left out. With STILLWATER_GUIDE set, the screenshots of the
+# artist's guide are taken anew into addon/guide/.
 #   bash tests/setup/gui.sh REPORT.xml [FILE...]
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -15,4 +16,5 @@ CI="" test_inside window.sh "$@"
 code=$?
 rm -rf "$build/screens"
 cp -r "$folder/build/screens" "$build/screens" 2>/dev/null
+[ -z "${STILLWATER_GUIDE:-}" ] || [ $code != 0 ] || cp "$build/screens/guide/"*.jpg addon/guide/
 exit $code
