@@ -80,7 +80,7 @@ def test_a_tree_is_added_from_the_presets(window):
     yield from window.click((right_end(sidebar), row[1]))
     last = yield from window.see("Clouds in a Storm")
     yield from window.screenshot("03-presets")
-    yield from window.cut_out("presets", Box(sidebar.x, last[1] - 20, last[0] + 100 - sidebar.x, row[1] + 40 - last[1]))
+    yield from window.cut_out("presets", Box(sidebar.x + 8, last[1] - 20, last[0] + 92 - sidebar.x, row[1] + 40 - last[1]))
     yield from window.click("Tree")
     yield from window.until(lambda: len(picture().layers) == 2, 10, "no layer")
     assert picture().layers[0].motion.type == "sway"
@@ -197,7 +197,7 @@ def test_what_is_out_of_date_is_told_until_undo(window):
     yield from window.until(lambda: "out of date" in label(), 20, label)
     yield from window.screenshot("15-out-of-date")
     end = yield from window.see("To Sequencer", sidebar)
-    yield from window.cut_out("bake", Box(sidebar.x, end[1] - 20, sidebar.width - TABS, 150))
+    yield from window.cut_out("bake", Box(sidebar.x, end[1] - 20, sidebar.width - TABS, 205))
     yield from window.key("Z", at=window.box("VIEW_3D").middle, ctrl=True)
     yield from window.see("All 24 frames are ready", sidebar)
 
@@ -215,7 +215,7 @@ def test_the_compositor_shows_the_node_and_its_picture(window):
     yield from window.key("HOME", at=window.box("NODE_EDITOR").middle)
     yield from window.screenshot("16-compositor")
     nodes = window.box("NODE_EDITOR")
-    yield from window.cut_out("node", Box(nodes.middle[0] - 350, nodes.y + 90, 700, 260), 0.7)
+    yield from window.cut_out("node", Box(nodes.middle[0] - 270, nodes.y + 120, 830, 300), 0.6)
 
 
 def test_the_file_is_saved_with_its_frames_beside_it(window):
@@ -223,8 +223,8 @@ def test_the_file_is_saved_with_its_frames_beside_it(window):
     yield from window.key("S", at=window.box("NODE_EDITOR").middle, ctrl=True)
     yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
     yield from window.screenshot("17-save")
-    yield from window.open_file(path, "Save Blender File")
-    yield from window.until(path.exists, 20, "no file")
+    yield from window.save_file(path, "Untitled.blend", "Save Blender File")
+    yield from window.until(path.is_file, 20, "no file")
     assert state().folder.startswith("//stillwater"), state().folder
     assert len(list((path.parent / "stillwater").rglob("*.exr"))) >= 24
 
