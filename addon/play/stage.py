@@ -47,7 +47,10 @@ class Stage:
             self.read, self.reads = recipe, self.reads + 1
 
     def take(self, recipe: dict, folder: Path, longest: int, cache: Path | None) -> None:
-        """Takes the recipe as it is now. Costs nothing where it is the same. `cache`: its folder; None = in `folder`."""
+        """Takes the recipe as it is now. Costs nothing where it is the same.
+
+        `cache`: its folder; None = in `folder`.
+        """
         if (recipe, folder, longest, cache) != (self.recipe, self._folder, self._longest, self._cache):
             self.recipe, self._folder, self._longest, self._cache = recipe, folder, longest, cache
             self._take()

@@ -50,7 +50,8 @@ cv::Size canvas_size(cv::Size picture, double output_scale) {
   return {cvRound(picture.width * output_scale), cvRound(picture.height * output_scale)};
 }
 
-// At the picture's border a layer goes on, mirrored; elsewhere it ends. `box`: of the pixels, before they became endless.
+// At the picture's border a layer goes on, mirrored; elsewhere it ends. `box`: of the pixels before they became
+// endless.
 Plate as_plate(const Rgba& pixels, const cv::Rect& box, const cv::Rect& layer_box, cv::Size picture,
                double output_scale, Endless endless) {
   const double scale = std::min(1.0, output_scale);

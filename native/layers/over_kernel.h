@@ -54,7 +54,8 @@ static inline int stillwater_lay_under(const float* drawn, float opacity, float 
     if (!stillwater_any(seen)) continue;
     float* combined = run.combined + 4 * i;
     if (stillwater_all(seen)) {
-      for (int k = 0; k < 16; k += 4) *(stillwater_four*)(combined + k) += share[k / 4] * *(const stillwater_four*)(colour + k);
+      for (int k = 0; k < 4; ++k)
+        *(stillwater_four*)(combined + 4 * k) += share[k] * *(const stillwater_four*)(colour + 4 * k);
     } else {
       for (int k = 0; k < 4; ++k)
         if (seen[k]) *(stillwater_four*)(combined + 4 * k) += share[k] * *(const stillwater_four*)(colour + 4 * k);

@@ -78,7 +78,8 @@ assert recipe.write.frames_to_sample(-3, 0) == range(-3, 3)
 def test_many_numbers_are_written_as_each_alone():
     numbers = load(ADDON / "recipe/numbers.py")
     noise = np.random.default_rng(1)
-    values = [noise.uniform(-10, 10, 3000), 10 ** noise.uniform(-30, 30, 1000), np.arange(999) / 8, [0, -0.0, 0.6, 1e5, 1e6]]
+    odd = [0, -0.0, 0.6, 1e5, 1e6]
+    values = [noise.uniform(-10, 10, 3000), 10 ** noise.uniform(-30, 30, 1000), np.arange(999) / 8, odd]
     values = np.concatenate(values).astype(np.float32).astype(float)
     for subtype in ("NONE", "ANGLE"):
         alone = [numbers.plain(value, subtype) for value in values.tolist()]
