@@ -22,7 +22,7 @@ def cpu_name() -> str:
 
 
 def main() -> int:
-    benches = sorted(path.stem for path in HERE.glob("*.py") if "def rows(" in path.read_text())
+    benches = sorted(path.stem for path in HERE.glob("*.py") if "\ndef rows(" in path.read_text())
     names = sys.argv[1:] or benches
     if unknown := [name for name in names if name not in benches]:
         print(f"{', '.join(unknown)}: no such bench; there are {', '.join(benches)}", file=sys.stderr)
