@@ -223,7 +223,7 @@ def test_the_file_is_saved_with_its_frames_beside_it(window):
     yield from window.key("S", at=window.box("NODE_EDITOR").middle, ctrl=True)
     yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
     yield from window.screenshot("17-save")
-    yield from window.save_file(path, "Untitled.blend", "Save Blender File")
+    yield from window.save_file(path, "Untitled.blend")
     yield from window.until(path.is_file, 20, "no file")
     assert state().folder.startswith("//stillwater"), state().folder
     assert len(list((path.parent / "stillwater").rglob("*.exr"))) >= 24
