@@ -8,10 +8,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 TRIAL = 20  # s: how long a Python may take to load the engine
 
 _engine = None
-_problem = "the engine was not looked for yet"
+_problem = "The engine was not looked for yet"
 _caches: dict[Path, object] = {}  # by folder: they remember the hashes of files
 
 # -I: nothing of the user's own Python gets in. The engine's folder comes first, Blender's own modules after it.
@@ -29,7 +31,7 @@ def load() -> None:
         import stillwater
         stillwater.__version__  # noqa: B018  loads the compiled part
     except ImportError as error:
-        _engine, _problem = None, f"The engine can't be loaded: {error}"
+        _engine, _problem = None, rpt_("The engine can't be loaded: {error}").format(error=error)
     else:
         _engine, _problem = stillwater, ""
 
@@ -60,15 +62,23 @@ def parse(recipe: dict, folder: Path):
     return _engine.parse(recipe, folder)
 
 
-def standing(document, read):
+def standing(document, read, folder: Path | None = None):
     """Looks up which frames of a document stand (the engine's render/standing.py). Throws ValueError, OSError.
 
-    `read`: what reads a frame's mark. Hashes of files are remembered as long as Blender runs.
+    `read`: what reads a frame's mark; `folder`: of the cache, where not in the document's. Hashes of files are
+    remembered as long as Blender runs.
     """
     from stillwater.render import cache, standing
 
-    folder = document.folder / cache.FOLDER
+    folder = folder or document.folder / cache.FOLDER
     return standing.standing(document, read=read, cache=_caches.setdefault(folder, cache.Cache(folder)))
+
+
+def forget_layers(document, folder: Path) -> None:
+    """Removes from the cache in `folder` what was prepared for a document. Throws ValueError, OSError."""
+    from stillwater.render import cache, preview
+
+    preview.forget(document, cache.Cache(folder))
 
 
 def read_mark(path: Path):
@@ -134,14 +144,15 @@ def python_problem(python: str) -> str:
             stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=TRIAL,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
-        return f"{python}: gave no answer within {TRIAL} s; is it a Python?"
+        return rpt_("{python}: gave no answer within {time} s; is it a Python?").format(python=python, time=TRIAL)
     except OSError as error:
-        return f"{python}: can't be started ({error.strerror})"
+        return rpt_("{python}: can't be started ({why})").format(python=python, why=error.strerror)
     if done.returncode == 0 and done.stdout.strip() == version():
         return ""
     words = (done.stderr.strip() or done.stdout.strip()).splitlines()
     mine = f"Python {sys.version_info.major}.{sys.version_info.minor}"
-    return f"{python}: can't load the engine, which is built for {mine}" + (f" ({words[-1]})" if words else "")
+    sentence = rpt_("{python}: can't load the engine, which is built for {mine}").format(python=python, mine=mine)
+    return sentence + (f" ({words[-1]})" if words else "")
 
 
 def _site() -> str:

@@ -46,11 +46,6 @@ def drop_compositor(scene) -> None:
         bpy.data.node_groups.remove(tree)
 
 
-def grease_pencils():
-    """The file's drawings; what 4.5 calls grease_pencils are its annotations."""
-    return bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
-
-
 def composites(scene) -> bool:
     """Whether renders of `scene` go through its compositor."""
     switched_on = hasattr(scene, "compositing_node_group") or scene.use_nodes

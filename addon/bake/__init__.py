@@ -21,6 +21,11 @@ def _settle(*_):
 
 
 @persistent
+def _before_undo(*_):
+    job.before_undo()
+
+
+@persistent
 def _render_begins(*arguments):
     guard.render_begins(*arguments)
 
@@ -38,6 +43,8 @@ def _render_ends(*arguments):
 HANDLERS = [
     ("load_pre", _another_file),
     ("load_post", _settle),
+    ("undo_pre", _before_undo),
+    ("redo_pre", _before_undo),
     ("undo_post", _settle),
     ("redo_post", _settle),
     ("render_init", _render_begins),

@@ -13,23 +13,25 @@ import os
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 FILES = ("picture", "file", "labels", "trimap", "clip", "footage", "flow")  # fields of a recipe that name a file
 
 
-def collect(recipe: dict, folder: Path, target: Path, frames: list[Path]) -> list[Path]:
+def collect(
+    recipe: dict, folder: Path, target: Path, frames: list[Path], said: Callable[[str], str] = str
+) -> list[Path]:
     """Writes a recipe whose paths start at `folder`, its files and `frames` into `target`; returns what was written.
 
-    `target` becomes a zip where it ends so, else it is a folder; neither is seen before it is whole. Throws
-    ValueError where a file is missing or the folder is not empty, OSError.
+    `target` becomes a zip where it ends so, else it is a folder; neither is seen before it is whole. `said` puts
+    sentences into the person's language. Throws ValueError where a file is missing or the folder is not empty, OSError.
     """
     missing = [str(place[name]) for place, name in files_of(recipe) if not (folder / place[name]).is_file()]
     if missing:
-        raise ValueError(f"{missing[0]}: there is no such file")
+        raise ValueError(said("{path}: there is no such file").format(path=missing[0]))
     if target.is_dir() and any(target.iterdir()):
-        raise ValueError(f"{target}: the folder is not empty; name a new one")
+        raise ValueError(said("{path}: the folder is not empty; name a new one").format(path=target))
     target.parent.mkdir(parents=True, exist_ok=True)
     aside = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
     aside.chmod(0o755)

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import engine, preferences, strokes, versions
 from ..compositor import tree as node
@@ -68,7 +69,7 @@ def start(scene, picture, fresh: bool = False, frames: tuple[int, int] | None = 
     command = engine.worker_command(chosen.python)
     tree = node.claim(scene, picture)
     if tree.session_uid in _jobs:
-        raise ValueError(f"{picture.name}: is being baked already")
+        raise ValueError(rpt_("{name}: is being baked already").format(name=picture.name))
     image.take_over(picture)
     image.check(picture)
     command += ["render", _write_own_recipe(scene, picture), "--progress", "json", "--parent"]
@@ -76,8 +77,9 @@ def start(scene, picture, fresh: bool = False, frames: tuple[int, int] | None = 
     command += ["--frames", f"{frames[0]}-{frames[1]}"] if frames else []
     command += ["--fresh"] if fresh else []
     node.describe(tree, scene, picture, places.locate_in(places.frames_of(picture))("."), layers_alone(picture))
-    _jobs[tree.session_uid] = Worker(command, bpy.app.tempdir), Progress(layers=[layer.name for layer in picture.layers])
-    _tell(tree, _jobs[tree.session_uid][1])
+    progress = Progress(layers=[layer.name for layer in picture.layers], said=rpt_)
+    _jobs[tree.session_uid] = Worker(command, bpy.app.tempdir), progress
+    _tell(tree, progress)
     if not bpy.app.timers.is_registered(tick):
         bpy.app.timers.register(tick, first_interval=INTERVAL)
     return tree
@@ -88,7 +90,7 @@ def _write_own_recipe(scene, picture) -> str:
         return write_recipe(scene, picture)
     except OSError as error:
         why = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        raise ValueError(f"{why}; save the file where a folder can be made beside it") from None
+        raise ValueError(rpt_("{why}; save the file where a folder can be made beside it").format(why=why)) from None
 
 
 def layers_alone(picture) -> list[tuple[str, str]]:
@@ -164,14 +166,27 @@ def settle() -> None:
 
     Frames that lie on disk now, whatever happened since the file was saved, are shown.
     """
-    for tree in bpy.data.node_groups:
-        if tree.bl_idname != "CompositorNodeTree" or not tree.stillwater.picture or tree.library is not None:
-            continue
+    for tree in _trees():
         if tree.stillwater.state == "running" and not running(tree):
-            tree.stillwater.state, tree.stillwater.message = "cancelled", "Interrupted; the frames made so far are kept"
-        if not running(tree) and (node.changed_on_disk(tree) or not tree.stillwater.holds):
+            tree.stillwater.state = "cancelled"
+            tree.stillwater.message = rpt_("Interrupted; the frames made so far are kept")
+        if not running(tree) and not tree.stillwater.holds:
             tree.stillwater.holds = True
             node.show(tree)
+        elif node.changed_on_disk(tree):
+            node.show(tree)
+
+
+def before_undo() -> None:
+    """What the timers put on the trees is taken off them; settle() brings it back."""
+    for tree in _trees():
+        node.let_go(tree)
+
+
+def _trees() -> list:
+    """The trees of all pictures of this file."""
+    groups = [tree for tree in bpy.data.node_groups if tree.bl_idname == "CompositorNodeTree" and tree.library is None]
+    return [tree for tree in groups if tree.stillwater.picture]
 
 
 def _end(uid: int) -> None:

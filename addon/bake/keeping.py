@@ -1,12 +1,14 @@
 """What becomes of a bake: freed, collected for a farm, or written as a recipe."""
 
+import contextlib
 import shutil
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 
-from .. import engine
+from .. import engine, preferences
 from ..compositor import frames, tree
 from . import collect, job, outdated, places
 from .operators import OfPicture
@@ -32,12 +34,15 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
 
     def act(self, context, picture):
         if picture.tree is not None and job.running(picture.tree):
-            raise ValueError(f"{picture.name}: is being baked; cancel it first")
+            raise ValueError(rpt_("{name}: is being baked; cancel it first").format(name=picture.name))
         gone, folder = frames_of(picture), places.folder_of(picture)
         for path in gone:
             path.unlink()
         if (folder / CACHE).exists():
             shutil.rmtree(folder / CACHE)
+        if shared := preferences.of(context).cache():
+            with contextlib.suppress(ValueError):  # a picture that can't be read: nothing is known to be its own
+                engine.forget_layers(engine.parse(job.describe(context.scene, picture, folder), folder), shared)
         for empty in (places.frames_of(picture), folder):
             if empty.is_dir() and not any(empty.iterdir()):
                 empty.rmdir()
@@ -46,7 +51,8 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
             state.state, state.message, state.warning, state.left, state.share = "none", "", "", "", 0
             tree.show(picture.tree)
         outdated.look(context.scene, picture, play=False)
-        self.report({"INFO"}, f"{len(gone)} frame{'' if len(gone) == 1 else 's'} deleted")
+        sentence = rpt_("1 frame deleted") if len(gone) == 1 else rpt_("{count} frames deleted")
+        self.report({"INFO"}, sentence.format(count=len(gone)))
         return {"FINISHED"}
 
 
@@ -63,16 +69,19 @@ class _ToFile(OfPicture):
     def path(self) -> Path:
         """Where to write. Throws ValueError where that was not said."""
         if not self.filepath:
-            raise ValueError("No file is named to write to")
+            raise ValueError(rpt_("No file is named to write to"))
         return Path(bpy.path.abspath(self.filepath)).absolute()
 
 
 class STILLWATER_OT_collect(_ToFile, bpy.types.Operator):
-    """Copy the picture's recipe, every file that it needs and its frames into a folder or a zip, for a farm or for
-    another machine: "python -m stillwater render recipe.json" renders there what is missing"""
+    """Its recipe, all files and its frames, for a farm: `python -m stillwater render recipe.json` there does the rest."""
 
     bl_idname = "stillwater.collect"
     bl_label = "Collect Files"
+    bl_description = (
+        "Copy the picture's recipe, every file that it needs and its frames into a folder or a zip, for a farm or"
+        ' another machine: "python -m stillwater render recipe.json" renders there what is missing'
+    )
 
     filepath: StringProperty(
         name="Folder or Zip", description="Becomes a zip where it ends with .zip, else a new folder",
@@ -85,8 +94,8 @@ class STILLWATER_OT_collect(_ToFile, bpy.types.Operator):
         target, folder = self.path(), places.folder_of(picture)
         recipe = job.describe(context.scene, picture, folder)
         engine.parse(recipe, folder)  # what is wrong is said here, not on the farm
-        written = collect.collect(recipe, folder, target, frames_of(picture) if self.frames else [])
-        self.report({"INFO"}, f"{target}: {len(written)} files collected")
+        written = collect.collect(recipe, folder, target, frames_of(picture) if self.frames else [], rpt_)
+        self.report({"INFO"}, rpt_("{target}: {count} files collected").format(target=target, count=len(written)))
         return {"FINISHED"}
 
 
@@ -96,14 +105,16 @@ class STILLWATER_OT_export_recipe(_ToFile, bpy.types.Operator):
     bl_idname = "stillwater.export_recipe"
     bl_label = "Export Recipe"
 
-    filepath: StringProperty(name="Recipe", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="Recipe", description="File to write the recipe to", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
     ending = ".json"
 
     def act(self, context, picture):
         path = self.path()
         engine.parse(job.describe(context.scene, picture, path.parent), path.parent)
-        self.report({"INFO"}, f"Written: {job.write_recipe(context.scene, picture, path)}")
+        self.report({"INFO"}, rpt_("Written: {path}").format(path=job.write_recipe(context.scene, picture, path)))
         return {"FINISHED"}
 
 

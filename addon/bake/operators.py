@@ -1,9 +1,12 @@
 """Bake, cancel, check frames."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from .. import engine
+from ..ui import polls
 from . import job, outdated, ranges
 
 
@@ -18,11 +21,8 @@ class OfPicture:
     def poll(cls, context):
         if engine.problem():
             cls.poll_message_set(engine.problem())
-        elif context.scene.stillwater.active() is None:
-            cls.poll_message_set("The scene has no Stillwater picture yet")
-        else:
-            return True
-        return False
+            return False
+        return polls.own_picture(cls, context)
 
     def chosen(self, context):
         """The picture that is meant. Throws ValueError."""
@@ -31,7 +31,7 @@ class OfPicture:
             return settings.active()
         found = next((picture for picture in settings.pictures if picture.name == self.picture), None)
         if found is None:
-            raise ValueError(f"{self.picture}: the scene has no picture of this name")
+            raise ValueError(rpt_("{picture}: the scene has no picture of this name").format(picture=self.picture))
         return found
 
     def execute(self, context):
@@ -57,7 +57,7 @@ class STILLWATER_OT_bake(OfPicture, bpy.types.Operator):
     bl_label = "Bake"
     bl_options = {"UNDO"}  # so that undoing a later step does not take the new tree, and with it the bake, away
 
-    range: EnumProperty(name="Range", description="Which frames", items=ranges.ITEMS, options={"SKIP_SAVE"})
+    range: EnumProperty(name="Range", description="Which frames to bake", items=ranges.ITEMS, options={"SKIP_SAVE"})
     fresh: BoolProperty(name="Fresh", description="Make every frame anew", options={"SKIP_SAVE"})
     wait: BoolProperty(
         name="Wait", description="Stay until it is over, as always in background", options={"SKIP_SAVE", "HIDDEN"}
@@ -93,7 +93,7 @@ class STILLWATER_OT_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if not job.running_trees():
-            cls.poll_message_set("Nothing is being baked")
+            cls.poll_message_set(tip_("Nothing is being baked"))
             return False
         return True
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
-from .. import engine, versions
+from .. import engine, preferences, versions
 from ..compositor import tree as node
 from ..recipe.animation import facts_of
 from ..ui import redraw
@@ -51,7 +52,7 @@ def look(scene, picture, play: bool = True) -> Report:
     known = _known.setdefault(_key(scene, picture), _Picture())
     known.steps = None
     if not play and _needs_playing(scene, picture):
-        known.report = Report(problem=PLAYED)
+        known.report = Report(problem=rpt_(PLAYED))
     else:
         for _ in _steps(known, scene, picture):
             pass
@@ -94,7 +95,7 @@ def _begin(known: _Picture, scene, picture) -> None:
     """Starts a look, and says when the next one is due."""
     start, before = time.monotonic(), known.report
     if _needs_playing(scene, picture):
-        known.report = Report(problem=PLAYED)
+        known.report = Report(problem=rpt_(PLAYED))
     else:
         known.steps = _steps(known, scene, picture)
         if next(known.steps, True):  # over already: nothing has changed
@@ -108,7 +109,7 @@ def _steps(known: _Picture, scene, picture) -> Iterator[bool]:
     """Looks at one frame a step; leaves the report. What is wrong with the recipe is the report's problem."""
     try:
         if picture.tree is None or not picture.tree.stillwater.there:
-            known.report, known.glance = Report(missing=((scene.frame_start, scene.frame_end),)), ""
+            known.report, known.glance = Report(missing=((scene.frame_start, scene.frame_end),), said=rpt_), ""
             return
         folder = places.folder_of(picture)
         glance = _glance(scene, picture, folder)
@@ -116,13 +117,14 @@ def _steps(known: _Picture, scene, picture) -> Iterator[bool]:
             return
         recipe = job.describe(scene, picture, folder)
         yield False
-        standing = engine.standing(engine.parse(recipe, folder), lambda path: _mark(known, path))
+        cache = preferences.of(bpy.context).cache()
+        standing = engine.standing(engine.parse(recipe, folder), lambda path: _mark(known, path), cache)
         found = []
         for frames in standing.all():
             found.append(frames)
             yield False
         spans = engine.joined(found)
-        known.report, known.glance = report(spans, engine.by_reason(spans)), glance
+        known.report, known.glance = report(spans, engine.by_reason(spans), rpt_), glance
     except (ValueError, OSError) as error:
         known.report, known.glance = Report(problem=" ".join(str(error).splitlines())), ""
 

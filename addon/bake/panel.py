@@ -1,6 +1,7 @@
 """How the bake goes, what is out of date and why, and what the frames are to be like."""
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 from ..ui import sidebar
 from . import outdated, status_bar
@@ -35,7 +36,7 @@ def _draw_bake(context, layout, scene, picture) -> None:
         sidebar.say(context, layout, state.message, "ERROR" if state.state == "failed" else "INFO")
     for warning in filter(None, state.warning.split("\n") if state is not None else []):
         sidebar.say(context, layout, warning, "ERROR")
-    for line in found.lines if found is not None else ["Looking which frames are ready"]:
+    for line in found.lines if found is not None else [iface_("Looking which frames are ready")]:
         sidebar.say(context, layout, line, "CHECKMARK" if found is not None and found.is_ready else "DOT")
 
 
@@ -80,7 +81,7 @@ class STILLWATER_PT_node(sidebar.Part, bpy.types.Panel):
         if scene == context.scene:
             _draw_bake(context, self.layout, scene, picture)
         else:
-            self.layout.label(text=f"Of the scene {scene.name}", icon="SCENE_DATA")
+            self.layout.label(text=iface_("Of the scene {name}").format(name=scene.name), icon="SCENE_DATA")
 
 
 class _Frames(sidebar.OfPicture):

@@ -1,5 +1,7 @@
 """Which frames a bake is asked for: all of the scene's, or a part of them."""
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 ITEMS = [
     ("ALL", "All Frames", "Every frame of the scene's range"),
     ("PREVIEW", "Preview Range", "The preview range of the timeline"),
@@ -16,7 +18,7 @@ def frames_of(context, kind: str) -> tuple[int, int] | None:
             return None
         case "PREVIEW":
             if not scene.use_preview_range:
-                raise ValueError("The timeline has no preview range; set one with P, or bake all frames")
+                raise ValueError(rpt_("The timeline has no preview range; set one with P, or bake all frames"))
             first, last = scene.frame_preview_start, scene.frame_preview_end
         case "VISIBLE":
             first, last = _visible(context)
@@ -24,8 +26,12 @@ def frames_of(context, kind: str) -> tuple[int, int] | None:
             first = last = scene.frame_current
     within = max(first, scene.frame_start), min(last, scene.frame_end)
     if within[0] > within[1]:
-        asked = f"Frame {first} is" if first == last else f"Frames {first} to {last} are"
-        raise ValueError(f"{asked} not within the scene's frames, {scene.frame_start} to {scene.frame_end}")
+        if first == last:
+            sentence = rpt_("Frame {first} is not within the scene's frames, {start} to {end}")
+        else:
+            sentence = rpt_("Frames {first} to {last} are not within the scene's frames, {start} to {end}")
+        asked = {"first": first, "last": last, "start": scene.frame_start, "end": scene.frame_end}
+        raise ValueError(sentence.format(**asked))
     return within
 
 
@@ -34,6 +40,6 @@ def _visible(context) -> tuple[int, int]:
     areas = [area for area in window.screen.areas if area.type == "DOPESHEET_EDITOR"] if window else []
     regions = [region for area in areas for region in area.regions if region.type == "WINDOW" and region.width > 1]
     if not regions:
-        raise ValueError("No timeline or dope sheet is open; open one, or bake all frames")
+        raise ValueError(rpt_("No timeline or dope sheet is open; open one, or bake all frames"))
     left, right = (regions[0].view2d.region_to_view(x, 0)[0] for x in (0, regions[0].width))
     return round(left), round(right)

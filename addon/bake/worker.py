@@ -11,6 +11,7 @@ import signal
 import subprocess
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 PATIENCE = 2.0  # s: how long a worker that was asked to end may take
@@ -80,13 +81,13 @@ def _event(line: bytes) -> dict | None:
     return event if isinstance(event, dict) and isinstance(event.get("event"), str) else None
 
 
-def ending(code: int, words: str) -> str:
+def ending(code: int, words: str, said: Callable[[str], str] = str) -> str:
     """A sentence for a worker that ended without saying why."""
     if code < 0:
         try:
-            how = f"was ended by {signal.Signals(-code).name}"
+            how = said("The worker was ended by {signal}").format(signal=signal.Signals(-code).name)
         except ValueError:
-            how = f"was ended by signal {-code}"
+            how = said("The worker was ended by signal {number}").format(number=-code)
     else:
-        how = f"ended with code {code}"
-    return f"The worker {how}: {words}" if words else f"The worker {how} and gave no reason"
+        how = said("The worker ended with code {code}").format(code=code)
+    return f"{how}: {words}" if words else said("{how} and gave no reason").format(how=how)

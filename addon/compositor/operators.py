@@ -1,8 +1,11 @@
 """The Stillwater node in the Add menu, and reading frames that were made elsewhere."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 
 from .. import versions
+from ..ui import polls
 from . import sequence, tree
 
 
@@ -15,10 +18,7 @@ class STILLWATER_OT_add_node(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if context.scene.stillwater.active() is None:
-            cls.poll_message_set("The scene has no Stillwater picture yet")
-            return False
-        return True
+        return polls.own_picture(cls, context)
 
     def execute(self, context):
         scene = context.scene
@@ -51,13 +51,18 @@ class STILLWATER_OT_refresh(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         picture = context.scene.stillwater.active()
-        return picture is not None and picture.tree is not None
+        if picture is None or picture.tree is None:
+            cls.poll_message_set(tip_("The picture has no node yet: bake it, or add one, first"))
+            return False
+        return True
 
     def execute(self, context):
         shown = context.scene.stillwater.active().tree
         found = tree.show(shown)
         if not found:
-            self.report({"WARNING"}, f"{shown.stillwater.folder}: holds no frame {shown.stillwater.name}_0001.exr")
+            sentence = rpt_("{folder}: holds no frame {name}_0001.exr")
+            state = shown.stillwater
+            self.report({"WARNING"}, sentence.format(folder=state.folder, name=state.name))
         return {"FINISHED"}
 
 
@@ -72,14 +77,15 @@ class STILLWATER_OT_add_to_sequencer(bpy.types.Operator):
     def poll(cls, context):
         picture = context.scene.stillwater.active()
         if picture is None or picture.tree is None or not picture.tree.stillwater.there:
-            cls.poll_message_set("The picture has no frames yet: bake it first")
+            cls.poll_message_set(tip_("The picture has no frames yet: bake it first"))
             return False
         return True
 
     def execute(self, context):
         shown = context.scene.stillwater.active().tree
         if not tree.show(shown):
-            self.report({"ERROR"}, f"{shown.stillwater.folder}: holds no frames; bake the picture first")
+            sentence = rpt_("{folder}: holds no frames; bake the picture first")
+            self.report({"ERROR"}, sentence.format(folder=shown.stillwater.folder))
             return {"CANCELLED"}
         sequence.add_strip(versions.sequencer_of(context), shown)
         return {"FINISHED"}

@@ -20,15 +20,15 @@ class STILLWATER_PG_frames(bpy.types.PropertyGroup):
     state: EnumProperty(
         name="Bake", description="How the last bake went", default="none", options=set(),
         items=[
-            ("none", "Not baked", "No frames were made yet"),
+            ("none", "Not Baked", "No frames were made yet"),
             ("running", "Baking", "The worker is making frames"),
             ("done", "Baked", "All frames are there"),
             ("failed", "Failed", "The worker gave up"),
             ("cancelled", "Cancelled", "The frames made so far are kept"),
         ],
     )
-    share: FloatProperty(name="Progress", description="Of the bake (0..1)", min=0, max=1, options=set())
-    left: StringProperty(name="Time Left", description="Of the bake", options=set())
+    share: FloatProperty(name="Progress", description="How much of the bake is done (0..1)", min=0, max=1, options=set())
+    left: StringProperty(name="Time Left", description="How long the bake still takes", options=set())
     holds: BoolProperty(default=True, options={"HIDDEN"})  # missing frames show the nearest; not in a render that bakes
     there: StringProperty(options={"HIDDEN"})  # the frames that the node shows, as ranges: 1-4,7
     message: StringProperty(name="Message", description="What the worker does, or why it gave up", options=set())

@@ -143,11 +143,29 @@ def _unlink(tree) -> None:
         tree.links.remove(link)
 
 
+def let_go(tree) -> None:
+    """Before a step is undone: takes images and keys off the tree, which show() brings back.
+
+    They may have come with a timer, after the last undo step. Blender frees what the step does not hold, but keeps a
+    tree that is the same in both steps as it is: it would be left pointing at them.
+    """
+    for source in tree.nodes:
+        if source.name == SOURCE or source.name.startswith(f"{SOURCE} "):
+            source.image = None
+    action = tree.animation_data.action if tree.animation_data is not None else None
+    if action is not None:
+        tree.animation_data.action = None
+        if action.users == 0:
+            bpy.data.actions.remove(action)
+
+
 def changed_on_disk(tree) -> bool:
     """Whether the frames in its folder are others than those that it shows."""
     state = tree.stillwater
     if not state.folder:
         return False
+    if state.there and tree.nodes[SOURCE].image is None:
+        return True
     there = frames.present(Path(bpy.path.abspath(state.folder)), state.name)
     return state.there != frames.spans([frame for frame in there if state.first <= frame <= state.last])
 

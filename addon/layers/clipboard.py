@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import strokes
 from ..properties import arrange, curves, plain
@@ -53,10 +54,11 @@ def from_text(picture, text: str, at: int) -> list[str]:
             lost += _reconnect(picture, index, ids, names)
             unread = []
             curves.from_data(picture, index, said, ids, lost=unread.append)
-            lost += [f"{picture.layers[index].name}: a driver reads {what}" for what in unread]
+            sentence = rpt_("{layer}: a driver reads {what}")
+            lost += [sentence.format(layer=picture.layers[index].name, what=what) for what in unread]
     except (KeyError, TypeError, AttributeError, ValueError, RuntimeError) as error:
         arrange.remove_layers(picture, list(range(before, len(picture.layers))))
-        raise ValueError(f"The copied layers can't be read: {error}") from error
+        raise ValueError(rpt_("The copied layers can't be read: {error}").format(error=error)) from error
     count = len(picture.layers)
     arrange.reorder_layers(picture, [*range(at), *range(before, count), *range(at, before)])
     return lost
@@ -67,9 +69,9 @@ def _read(text: str) -> tuple[list, dict]:
         said = json.loads(text)
         version, layers, names = said["stillwater_layers"], said["layers"], said["names"]
     except (ValueError, KeyError, TypeError) as error:
-        raise ValueError("There are no copied layers") from error
+        raise ValueError(rpt_("There are no copied layers")) from error
     if version != VERSION:
-        raise ValueError("The layers were copied by another version of Stillwater")
+        raise ValueError(rpt_("The layers were copied by another version of Stillwater"))
     return layers, names
 
 
@@ -84,7 +86,9 @@ def _reconnect(picture, index: int, ids: dict, names: dict) -> list[str]:
             found = ids.get(known) or here.get(known) or named.get(names.get(known), "")
             setattr(group, field, found)
             if not found:
-                lost.append(f"{layer.name}: {names.get(known, 'a layer that it knows')} is not in {picture.name}")
+                name = names.get(known) or rpt_("a layer that it knows")
+                sentence = rpt_("{layer}: {name} is not in {picture}")
+                lost.append(sentence.format(layer=layer.name, name=name, picture=picture.name))
     return lost
 
 
@@ -123,9 +127,10 @@ class STILLWATER_OT_copy_layers(OfLayers, bpy.types.Operator):
             unfinished.write_text(to_text(picture, indices), encoding="utf-8")
             unfinished.replace(place())
         except (OSError, ValueError) as error:
-            self.report({"ERROR"}, f"The layers can't be copied: {error}")
+            self.report({"ERROR"}, rpt_("The layers can't be copied: {error}").format(error=error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"Copied {len(indices)} layer{'s' * (len(indices) != 1)}")
+        sentence = rpt_("Copied 1 layer") if len(indices) == 1 else rpt_("Copied {count} layers")
+        self.report({"INFO"}, sentence.format(count=len(indices)))
         return {"FINISHED"}
 
 

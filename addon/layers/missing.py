@@ -7,7 +7,8 @@ def of(picture, index: int, drawn: set[str]) -> list[str]:
     `drawn`: the numbers of its motion, and of the view, that strokes stand for.
     """
     layer = picture.layers[index]
-    return [*_matte(layer, index == len(picture.layers) - 1), *_motion(picture, layer, drawn)]
+    last = index == len(picture.layers) - 1
+    return [*_matte(layer, last), *_motion(picture, layer, drawn), *_circle(picture, layer)]
 
 
 def horizon(view, drawn: set[str]) -> list[str]:
@@ -53,3 +54,27 @@ def _bob(picture, bob, drawn: set[str]) -> list[str]:
     if len({tuple(point.place) for point in bob.waterline}) < 2 and "waterline" not in drawn:
         said.append("Draw its waterline, along the hull where it meets the water")
     return said
+
+
+def _circle(picture, layer) -> list[str]:
+    """A layer can't move with one that moves with it."""
+    follows, water = layer.follows.layer, layer.motion.bob.water if layer.motion.type == "bob" else ""
+    said = []
+    if layer.name in _with_all_below(picture, follows):
+        said.append("Choose another layer to follow: that one follows this one")
+    if layer.name in _with_all_below(picture, water):
+        said.append("Choose other water: that one follows this layer")
+    return said
+
+
+def _with_all_below(picture, name: str) -> set[str]:
+    """A layer, what it moves with, what that moves with and so on, by name."""
+    layers = {layer.name: layer for layer in picture.layers}
+    found, to_look = set(), [name]
+    while to_look:
+        name = to_look.pop()
+        if name in layers and name not in found:
+            found.add(name)
+            motion = layers[name].motion
+            to_look += [layers[name].follows.layer, motion.bob.water if motion.type == "bob" else ""]
+    return found

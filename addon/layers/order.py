@@ -1,6 +1,7 @@
 """Layers come, go and change places. All selected ones at once; keys and drivers go with them."""
 
 import bpy
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty, StringProperty
 
 from .. import strokes
@@ -22,7 +23,7 @@ class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        return preset_files.description_of(properties.preset) or "Add a layer in front of the active one"
+        return preset_files.description_of(properties.preset) or tip_(cls.__doc__)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -93,7 +94,7 @@ class STILLWATER_OT_move_layer(OfLayers, bpy.types.Operator):
     bl_label = "Move Layer"
 
     direction: EnumProperty(
-        name="Direction",
+        name="Direction", description="Where the layers go",
         items=[
             ("UP", "Forward", "Before the next layer"),
             ("DOWN", "Back", "Behind the next layer"),
@@ -104,8 +105,12 @@ class STILLWATER_OT_move_layer(OfLayers, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        said = {"UP": "forward", "DOWN": "back", "TOP": "before all others", "BOTTOM": "behind all others"}
-        return f"Move the selected layers {said[properties.direction]}; the list's top is the front"
+        return {
+            "UP": tip_("Move the selected layers forward; the list's top is the front"),
+            "DOWN": tip_("Move the selected layers back; the list's top is the front"),
+            "TOP": tip_("Move the selected layers before all others; the list's top is the front"),
+            "BOTTOM": tip_("Move the selected layers behind all others; the list's top is the front"),
+        }[properties.direction]
 
     def execute(self, context):
         picture = context.scene.stillwater.active()

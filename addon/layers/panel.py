@@ -1,5 +1,7 @@
 """The list of layers with what the active one still misses; and, below the strokes, what it is and does."""
 
+from bpy.app.translations import pgettext_iface as iface_
+
 from .. import strokes
 from ..ui import sidebar
 from . import missing, selection
@@ -15,7 +17,7 @@ class _Layers(sidebar.OfPicture):
         picture = context.scene.stillwater.active()
         _draw_list(self.layout, picture)
         if picture.active_layer >= len(picture.layers):
-            sidebar.say(context, self.layout, "Add a layer for each part of the picture that moves", "INFO")
+            sidebar.say(context, self.layout, iface_("Add a layer for each part of the picture that moves"), "INFO")
             return
         selected = selection.chosen(picture)
         if len(selected) > 1:
@@ -23,7 +25,7 @@ class _Layers(sidebar.OfPicture):
         layer = picture.layers[picture.active_layer]
         drawn = strokes.replaced(context.scene, picture, layer)
         for sentence in missing.of(picture, picture.active_layer, drawn):
-            sidebar.say(context, self.layout, sentence, "ERROR")
+            sidebar.say(context, self.layout, iface_(sentence), "ERROR")
 
 
 class _Layer(sidebar.OfPicture):
@@ -59,7 +61,7 @@ def _draw_list(layout, picture) -> None:
 
 def _draw_selection(layout, count: int) -> None:
     box = layout.box().column(align=True)
-    box.label(text=f"{count} layers are selected", icon="CHECKBOX_HLT")
+    box.label(text=iface_("{count} layers are selected").format(count=count), icon="CHECKBOX_HLT")
     row = box.row(align=True)
     row.operator("stillwater.show_layers", text="Show", icon="HIDE_OFF").visible = True
     row.operator("stillwater.show_layers", text="Hide", icon="HIDE_ON").visible = False
@@ -102,7 +104,8 @@ def _draw_bob(layout, bob, drawn: set[str]) -> None:
     sidebar.draw(layout, bob, "water", "amount")
     if "waterline" in drawn:
         return
-    line = sidebar.fold(layout, "stillwater_waterline", f"Waterline: {len(bob.waterline)} Points")
+    title = iface_("Waterline: {count} Points").format(count=len(bob.waterline))
+    line = sidebar.fold(layout, "stillwater_waterline", title)
     if line is None:
         return
     line.use_property_split = False

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 
 from ..properties import motions
 from ..recipe.numbers import kept, plain
@@ -47,7 +49,8 @@ def folder(kind: str) -> Path:
     """Where an artist's own presets of a kind lie. Throws OSError where that can't be made."""
     made = bpy.utils.user_resource("SCRIPTS", path=os.path.join("presets", "stillwater", kind), create=True)
     if not made:
-        raise OSError("The folder of your presets can't be made; set Script Directories in the preferences' File Paths")
+        sentence = "The folder of your presets can't be made; set Script Directories in the preferences' File Paths"
+        raise OSError(rpt_(sentence))
     return Path(made)
 
 
@@ -62,18 +65,18 @@ def read(path: Path | str) -> Preset:
         said = json.loads(Path(path).read_text(encoding="utf-8"))
         preset = Preset(name_of(path), said["kind"], said.get("description", ""), dict(said["numbers"]))
     except FileNotFoundError as error:
-        raise OSError(f"{path}: there is no such preset") from error
+        raise OSError(rpt_("{path}: there is no such preset").format(path=path)) from error
     except (ValueError, KeyError, TypeError) as error:
-        raise ValueError(f"{Path(path).name}: is not a preset of Stillwater") from error
+        raise ValueError(rpt_("{name}: is not a preset of Stillwater").format(name=Path(path).name)) from error
     if said.get("stillwater_preset") != 1 or preset.kind not in KINDS:
-        raise ValueError(f"{Path(path).name}: is a preset of another version of Stillwater")
+        raise ValueError(rpt_("{name}: is a preset of another version of Stillwater").format(name=Path(path).name))
     return preset
 
 
 def description_of(path: str) -> str:
     """What a preset says about itself, for its tooltip; empty where it can't be read."""
     try:
-        return read(path).description if path else ""
+        return tip_(read(path).description) if path else ""
     except (ValueError, OSError):
         return ""
 
@@ -83,9 +86,11 @@ def check(group, preset: Preset) -> None:
     for name, value in preset.numbers.items():
         kind = group.bl_rna.properties.get(name)
         if name not in type(group).__annotations__ or kind is None or name in APART:
-            raise ValueError(f"{preset.name}: {preset.kind} has no {name} that a preset could set")
+            sentence = rpt_("{preset}: {kind} has no {name} that a preset could set")
+            raise ValueError(sentence.format(preset=preset.name, kind=preset.kind, name=name))
         if not _fits(kind, value):
-            raise ValueError(f"{preset.name}: {name} can't be {value!r}")
+            sentence = rpt_("{preset}: {name} can't be {value!r}")
+            raise ValueError(sentence.format(preset=preset.name, name=name, value=value))
 
 
 def apply(group, preset: Preset) -> None:
@@ -108,9 +113,9 @@ def write(kind: str, name: str, group, description: str = "") -> Path:
     stem = bpy.path.display_name_to_filepath(name.strip())
     stem = "".join(letter if letter.isalnum() or letter in "_-+" else "_" for letter in stem).strip("_")
     if not stem:
-        raise ValueError("Give the preset a name first")
+        raise ValueError(rpt_("Give the preset a name first"))
     if stem.lower() in {path.stem.lower() for path in paths(kind)}:
-        raise ValueError(f'"{name}" exists already; choose another name, or remove it first')
+        raise ValueError(rpt_('"{name}" exists already; choose another name, or remove it first').format(name=name))
     numbers = {field: _plain(group, field) for field in _names(group)}
     said = {"stillwater_preset": 1, "kind": kind, "description": description, "numbers": numbers}
     path = folder(kind) / f"{stem}.json"

@@ -1,6 +1,8 @@
 """Choosing, saving and removing presets of motions and of the wind."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty, StringProperty
 
 from ..properties import curves
@@ -17,11 +19,13 @@ class STILLWATER_OT_apply_preset(OfPicture, bpy.types.Operator):
     bl_idname = "stillwater.apply_preset"
     bl_label = "Apply Preset"
 
-    filepath: StringProperty(name="File", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="File", description="File of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
 
     @classmethod
     def description(cls, context, properties):
-        return preset_files.description_of(properties.filepath) or cls.__doc__
+        return preset_files.description_of(properties.filepath) or tip_(cls.__doc__)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -37,7 +41,9 @@ class STILLWATER_OT_apply_preset(OfPicture, bpy.types.Operator):
             return {"CANCELLED"}
         kept = sorted(set().union(*map(curves.moved, groups)) & set(preset.numbers))
         if kept:
-            self.report({"WARNING"}, f"{', '.join(kept).capitalize()}: keyed or driven, which stays as it was")
+            sentence = rpt_("{names}: keyed or driven, which stays as it was")
+            names = [rpt_(groups[0].bl_rna.properties[name].name) for name in kept]
+            self.report({"WARNING"}, sentence.format(names=", ".join(names)))
         return {"FINISHED"}
 
 
@@ -48,9 +54,9 @@ class STILLWATER_OT_save_preset(OfPicture, bpy.types.Operator):
     bl_label = "Save Preset"
     bl_options = {"REGISTER"}
 
-    name: StringProperty(name="Name", description="Of the preset and its file", maxlen=64, options={"SKIP_SAVE"})
+    name: StringProperty(name="Name", description="Name of the preset and its file", maxlen=64, options={"SKIP_SAVE"})
     of: EnumProperty(
-        name="Of",
+        name="From", description="Whose numbers are saved",
         items=[("MOTION", "Motion", "The active layer's motion"), ("WIND", "Wind", "The picture's wind")],
     )
 
@@ -62,7 +68,7 @@ class STILLWATER_OT_save_preset(OfPicture, bpy.types.Operator):
         except FAILURES as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"Saved {path}")
+        self.report({"INFO"}, rpt_("Saved {path}").format(path=path))
         return {"FINISHED"}
 
 
@@ -73,7 +79,9 @@ class STILLWATER_OT_remove_preset(bpy.types.Operator):
     bl_label = "Remove Preset"
     bl_options = {"REGISTER"}
 
-    filepath: StringProperty(name="File", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="File", description="File of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
 
     def invoke(self, context, event):
         return context.window_manager.invoke_confirm(self, event)
@@ -83,7 +91,7 @@ class STILLWATER_OT_remove_preset(bpy.types.Operator):
         path = next((path for path in own if str(path) == self.filepath and not preset_files.is_shipped(path)), None)
         try:
             if path is None:
-                raise ValueError(f"{self.filepath}: is no preset of your own")
+                raise ValueError(rpt_("{filepath}: is no preset of your own").format(filepath=self.filepath))
             path.unlink()
         except FAILURES as error:
             self.report({"ERROR"}, str(error))
@@ -139,7 +147,7 @@ class STILLWATER_PT_wind_presets(_Presets, bpy.types.Panel):
 def _meant(picture, kind: str) -> list:
     """The numbers that a preset of a motion goes to: the active layer's, and those of selected ones of that motion."""
     if picture.active_layer >= len(picture.layers):
-        raise ValueError("Select a layer first")
+        raise ValueError(rpt_("Select a layer first"))
     motions = [picture.layers[i].motion for i in chosen(picture)]
     active = picture.layers[picture.active_layer].motion
     return [getattr(motion, kind) for motion in motions if motion == active or motion.type == kind]
@@ -147,10 +155,10 @@ def _meant(picture, kind: str) -> list:
 
 def _motion_of(picture):
     if picture.active_layer >= len(picture.layers):
-        raise ValueError("Select a layer first")
+        raise ValueError(rpt_("Select a layer first"))
     motion = picture.layers[picture.active_layer].motion
     if motion.numbers() is None:
-        raise ValueError("Choose a motion first: a still layer has no numbers to save")
+        raise ValueError(rpt_("Choose a motion first: a still layer has no numbers to save"))
     return motion.type, motion.numbers()
 
 

@@ -1,9 +1,12 @@
 """Which layers an operator means, and what is done to all of them at once."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..properties import arrange, curves, motions
+from ..ui import polls
 
 MOTIONS = [(name, name.title(), "", icon, i) for i, (name, icon) in enumerate(motions.ICONS.items())]
 
@@ -20,13 +23,7 @@ class OfPicture:
 
     @classmethod
     def poll(cls, context):
-        if not context.scene.is_editable:
-            cls.poll_message_set("The scene belongs to another file; change it there, or make it local")
-            return False
-        if context.scene.stillwater.active() is None:
-            cls.poll_message_set("Add a picture first")
-            return False
-        return True
+        return polls.own_picture(cls, context)
 
 
 class OfLayers(OfPicture):
@@ -38,7 +35,7 @@ class OfLayers(OfPicture):
             return False
         picture = context.scene.stillwater.active()
         if picture.active_layer >= len(picture.layers):
-            cls.poll_message_set("Select a layer first")
+            cls.poll_message_set(tip_("Select a layer first"))
             return False
         return True
 
@@ -51,7 +48,7 @@ class OfSeveral(OfLayers):
         if not super().poll(context):
             return False
         if len(chosen(context.scene.stillwater.active())) < 2:
-            cls.poll_message_set("Select more layers first, by the boxes in the list")
+            cls.poll_message_set(tip_("Select more layers first, by the boxes in the list"))
             return False
         return True
 
@@ -63,7 +60,7 @@ class STILLWATER_OT_select_layers(OfLayers, bpy.types.Operator):
     bl_label = "Select Layers"
 
     action: EnumProperty(
-        name="Action",
+        name="Action", description="Which layers are selected",
         items=[
             ("SELECT", "All", "All layers"),
             ("DESELECT", "None", "Only the active layer"),
@@ -94,7 +91,7 @@ class STILLWATER_OT_show_layers(OfLayers, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        return f"{'Show' if properties.visible else 'Hide'} all selected layers"
+        return tip_("Show all selected layers") if properties.visible else tip_("Hide all selected layers")
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -109,7 +106,7 @@ class STILLWATER_OT_set_motion(OfLayers, bpy.types.Operator):
     bl_idname = "stillwater.set_motion"
     bl_label = "Set Motion"
 
-    type: EnumProperty(name="Motion", items=MOTIONS)
+    type: EnumProperty(name="Motion", description="What the layers do", items=MOTIONS)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -126,7 +123,7 @@ class STILLWATER_OT_copy_to_selected(OfSeveral, bpy.types.Operator):
 
     path: StringProperty(
         name="Path", default="motion",
-        description="Of the value in its layer, as motion.sway.amount; motion stands for all that makes its look",
+        description="Path of the value in its layer, as motion.sway.amount; motion stands for all that makes its look",
     )
     layer: IntProperty(name="Layer", description="Whose value is copied; -1 = the active one's", default=-1, min=-1)
 
@@ -140,10 +137,12 @@ class STILLWATER_OT_copy_to_selected(OfSeveral, bpy.types.Operator):
                 for index in others:
                     _copy(picture, source, index, path)
         except (ValueError, AttributeError):
-            self.report({"ERROR"}, f"{self.path}: is not a value of a layer that can be copied")
+            self.report({"ERROR"}, rpt_("{path}: is not a value of a layer that can be copied").format(path=self.path))
             return {"CANCELLED"}
         what = "Motion" if self.path == "motion" else _kind(picture.layers[source], self.path).name
-        self.report({"INFO"}, f"{what} copied to {len(others)} layer{'s' * (len(others) != 1)}")
+        one = len(others) == 1
+        sentence = rpt_("{what} copied to 1 layer") if one else rpt_("{what} copied to {count} layers")
+        self.report({"INFO"}, sentence.format(what=rpt_(what), count=len(others)))
         return {"FINISHED"}
 
 

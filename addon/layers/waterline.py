@@ -1,6 +1,8 @@
 """A boat's waterline, point by point; drawing it is easier."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import FloatVectorProperty, IntProperty
 
 from ..properties.motions import FAR
@@ -16,7 +18,7 @@ class OfBoat(OfLayers):
             return False
         picture = context.scene.stillwater.active()
         if picture.layers[picture.active_layer].motion.type != "bob":
-            cls.poll_message_set("Select a layer with the motion Bob first")
+            cls.poll_message_set(tip_("Select a layer with the motion Bob first"))
             return False
         return True
 
@@ -53,13 +55,14 @@ class STILLWATER_OT_remove_waterline_point(OfBoat, bpy.types.Operator):
     bl_idname = "stillwater.remove_waterline_point"
     bl_label = "Remove Waterline Point"
 
-    index: IntProperty(name="Index", description="Of the point; -1 = the last one", default=-1, min=-1)
+    index: IntProperty(name="Index", description="Number of the point; -1 = the last one", default=-1, min=-1)
 
     def execute(self, context):
         line = self.line(context)
         index = self.index if self.index >= 0 else len(line) - 1
         if not 0 <= index < len(line):
-            self.report({"WARNING"}, f"The waterline has {len(line)} points, and none with the index {self.index}")
+            sentence = rpt_("The waterline has {count} points, and none with the index {index}")
+            self.report({"WARNING"}, sentence.format(count=len(line), index=self.index))
             return {"CANCELLED"}
         line.remove(index)
         return {"FINISHED"}

@@ -1,5 +1,7 @@
 """What all layers share: the wind, and how the picture sees the world."""
 
+from bpy.app.translations import pgettext_iface as iface_
+
 from .. import strokes
 from ..ui import sidebar
 from . import missing
@@ -34,7 +36,7 @@ class _View(sidebar.OfPicture):
         drawn = strokes.replaced(context.scene, picture)
         if any(layer.motion.type == "ripple" for layer in picture.layers):
             for sentence in missing.horizon(view, drawn):
-                sidebar.say(context, layout, sentence.removesuffix(" in View"), "ERROR")
+                sidebar.say(context, layout, iface_(sentence.removesuffix(" in View")), "ERROR")
         layout.use_property_split = True
         if "use_horizon" not in drawn:
             sidebar.draw(layout, view, "use_horizon")

@@ -2,6 +2,7 @@
 
 import bpy
 import gpu
+from bpy.app.translations import pgettext_iface as iface_
 from gpu_extras.batch import batch_for_shader
 
 from ..play import show
@@ -42,7 +43,7 @@ def draw() -> None:
             _paint(lines, pixels_to_world(picture), gpu.state.viewport_get()[2:])
         problem = ""
     except Exception as error:  # noqa: BLE001  a handler that raises would fill the console at every redraw
-        problem = f"Overlays: {error}"
+        problem = iface_("Overlays: {why}").format(why=error)
 
 
 def of(scene, picture) -> list[shapes.Lines]:

@@ -4,6 +4,7 @@ import os
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import BoolProperty, StringProperty
 
 from ..compositor import tree as node
@@ -70,7 +71,9 @@ class STILLWATER_OT_replace_picture(bpy.types.Operator):
     bl_label = "Replace Picture"
     bl_options = {"REGISTER", "UNDO"}
 
-    filepath: StringProperty(name="Picture", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="Picture", description="File of the new picture", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
     filter_image: BoolProperty(default=True, options={"SKIP_SAVE", "HIDDEN"})
     filter_folder: BoolProperty(default=True, options={"SKIP_SAVE", "HIDDEN"})
 
@@ -101,7 +104,7 @@ class STILLWATER_OT_reload_picture(bpy.types.Operator):
         if not polls.own_picture(cls, context):
             return False
         if not context.scene.stillwater.active().picture:
-            cls.poll_message_set("This picture has no file yet: choose one with Replace Picture")
+            cls.poll_message_set(tip_("This picture has no file yet: choose one with Replace Picture"))
             return False
         return True
 

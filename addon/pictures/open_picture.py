@@ -76,7 +76,7 @@ class STILLWATER_OT_open_picture(bpy.types.Operator):
         description="Set the view transform to Standard, so that renders have the picture's own colors",
     )
     frame_rate: EnumProperty(
-        name="Frame Rate", description="Of the whole scene. A still picture has none of its own", default="KEEP",
+        name="Frame Rate", description="Frame rate of the whole scene. A still picture has none of its own", default="KEEP",
         items=[
             ("KEEP", "Keep the Scene's", "Frame rate and frame range stay as they are"),
             *((rate, rate, f"{rate} frames per second") for rate in settings.RATES),

@@ -4,6 +4,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 
 from .. import engine, versions
@@ -28,7 +29,8 @@ def open_recipe(scene, path: Path):
     shown, size = image.load(str(folder / recipe["picture"]))
     if recipe["size"] is not None and size != tuple(recipe["size"]):
         bpy.data.images.remove(shown)
-        raise ValueError(f"size: {list(recipe['size'])} is not the picture's ({list(size)})")
+        sentence = rpt_("size: {said} is not the picture's ({found})")
+        raise ValueError(sentence.format(said=list(recipe["size"]), found=list(size)))
 
     settings.keep(scene)
     picture = arrange.add_picture(scene, path.stem if path.stem != "recipe" else folder.name)
@@ -63,7 +65,9 @@ class STILLWATER_OT_load_recipe(bpy.types.Operator):
     bl_label = "Open Recipe"
     bl_options = {"REGISTER", "UNDO"}
 
-    filepath: StringProperty(name="Recipe", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    filepath: StringProperty(
+        name="Recipe", description="File of the recipe", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
     filter_folder: BoolProperty(default=True, options={"SKIP_SAVE", "HIDDEN"})
 

@@ -59,7 +59,9 @@ def another_file(*_):
 
 
 @persistent
-def before_saving(*_):
+def planes_at_rest(*_):
+    """Before saving; and before a step is undone: Blender frees a live image that no undo step holds, but keeps a plane
+    that is the same in both steps, with what it points at."""
     show.put_back()
 
 
@@ -96,11 +98,13 @@ def _playing() -> bool:
 HANDLERS = [
     ("frame_change_post", frame_changed),
     ("depsgraph_update_post", something_changed),
+    ("undo_pre", planes_at_rest),
+    ("redo_pre", planes_at_rest),
     ("undo_post", another_state),
     ("redo_post", another_state),
     ("load_pre", another_file),
     ("load_post", another_state),
-    ("save_pre", before_saving),
+    ("save_pre", planes_at_rest),
     ("save_post", another_state),
     ("render_init", render_begins),
     ("render_complete", render_ends),

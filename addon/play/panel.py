@@ -1,5 +1,7 @@
 """Live on or off, what is shown, and what it waits for."""
 
+from bpy.app.translations import pgettext_iface as iface_
+
 from .. import engine
 from ..ui import sidebar
 from . import show
@@ -21,16 +23,16 @@ class _Live(sidebar.OfPicture):
         if not settings.on or engine.problem() or stage is None:
             return
         if picture.plane is None:
-            sidebar.say(context, layout, "The picture has no plane in this scene", "INFO")
+            sidebar.say(context, layout, iface_("The picture has no plane in this scene"), "INFO")
         elif stage.problem:
             sidebar.say(context, layout, stage.problem, "ERROR")
         elif stage.share is not None:
-            layout.progress(factor=stage.share, text=f"Preparing {stage.share:.0%}")
+            layout.progress(factor=stage.share, text=iface_("Preparing {share:.0%}").format(share=stage.share))
         elif stage.rests:
-            sidebar.say(context, layout, "Nothing moves yet: give a layer a motion", "INFO")
+            sidebar.say(context, layout, iface_("Nothing moves yet: give a layer a motion"), "INFO")
         elif stage.live is not None:
             width, height = stage.live.size
-            layout.label(text=f"{width} x {height} px")
+            layout.label(text=iface_("{width} x {height} px").format(width=width, height=height))
 
 
 CLASSES = sidebar.in_viewport("live", _Live)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import engine, preferences
 from ..bake.worker import Worker, ending
@@ -15,6 +16,7 @@ from ..bake.worker import Worker, ending
 INTERVAL = 0.1  # s
 
 _worker: Worker | None = None
+_command: list[str] = []  # what started it
 _open: dict[int, Callable[[dict], None]] = {}  # requests that are not over, and who is told
 _last = 0
 
@@ -25,9 +27,13 @@ def prepare(name: str, recipe: dict, folder: Path, longest: int, told: Callable[
     `told` gets every answer; the last is a "done", an "error" or a "cancelled". Returns the request's number. Throws
     ValueError without an engine, OSError where the process can't be started.
     """
-    global _worker, _last
+    global _worker, _command, _last
+    chosen = preferences.of(bpy.context)
+    command = [*engine.serve_command(chosen.python), *chosen.worker_options()]
+    if command != _command and not _open:  # the preferences changed
+        end()
     if _worker is None:
-        _worker = Worker(engine.serve_command(preferences.of(bpy.context).python), bpy.app.tempdir)
+        _worker, _command = Worker(command, bpy.app.tempdir), command
     path = Path(bpy.app.tempdir, f"stillwater-live-{name}.json")
     path.write_text(json.dumps(recipe), encoding="utf-8")
     _last += 1
@@ -64,7 +70,7 @@ def tick() -> float | None:
             del _open[event["id"]]
         told(event)
     if code is not None:
-        sentence = ending(code, _worker.last_words())
+        sentence = ending(code, _worker.last_words(), rpt_)
         _worker.close()
         _worker = None
         waiting = list(_open.values())

@@ -19,7 +19,7 @@ class STILLWATER_PG_live(bpy.types.PropertyGroup):
         items=[
             ("picture", "Picture", "All layers in motion"),
             ("layer", "Layer", "The active layer alone"),
-            ("matte", "Matte", "How much of each pixel the active layer covers, in grey"),
+            ("matte", "Matte", "How much of each pixel the active layer covers, in gray"),
             ("original", "Original", "The picture as it was opened, to compare"),
         ],
     )

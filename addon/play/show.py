@@ -91,7 +91,8 @@ def _show(shown, picture, stage: Stage, refresh: bool) -> None:
         return
     stage.rests = settings.view == "picture" and not moves(stage.read)
     if not stage.rests:
-        stage.take(stage.read, stage.folder, preferences.of(bpy.context).preview_size)
+        chosen = preferences.of(bpy.context)
+        stage.take(stage.read, stage.folder, chosen.preview_size, chosen.cache())
     layer = _layer(picture, settings.view)
     if stage.rests or stage.problem or stage.live is None or layer not in (None, *stage.live.layers):
         _clear(picture, stage)

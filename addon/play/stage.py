@@ -31,6 +31,7 @@ class Stage:
         self._live = None
         self.folder = self._folder = Path()
         self._longest = 0
+        self._cache: Path | None = None
         self._request = 0
         self._asked = ""
         self._gave_up = self._why = ""
@@ -45,10 +46,13 @@ class Stage:
         if recipe != self.read:
             self.read, self.reads = recipe, self.reads + 1
 
-    def take(self, recipe: dict, folder: Path, longest: int) -> None:
-        """Takes the recipe as it is now. Costs nothing where it is the same."""
-        if (recipe, folder, longest) != (self.recipe, self._folder, self._longest):
-            self.recipe, self._folder, self._longest = recipe, folder, longest
+    def take(self, recipe: dict, folder: Path, longest: int, cache: Path | None) -> None:
+        """Takes the recipe as it is now. Costs nothing where it is the same.
+
+        `cache`: its folder; None = in `folder`.
+        """
+        if (recipe, folder, longest, cache) != (self.recipe, self._folder, self._longest, self._cache):
+            self.recipe, self._folder, self._longest, self._cache = recipe, folder, longest, cache
             self._take()
 
     def again(self) -> None:
@@ -64,7 +68,7 @@ class Stage:
         try:
             if self._live is None:
                 self._live = engine.live()
-            ready = self._live.take(self.recipe, self._folder, self._longest)
+            ready = self._live.take(self.recipe, self._folder, self._longest, self._cache)
             self.problem, self.taken = "", self.taken + ready
         except (ValueError, OSError) as error:
             server.cancel(self._request)
@@ -77,7 +81,7 @@ class Stage:
             self._ask()
 
     def _ask(self) -> None:
-        wanted = json.dumps([preparation(self.recipe), str(self._folder), self._longest])
+        wanted = json.dumps([preparation(self.recipe), str(self._folder), self._longest, str(self._cache)])
         if wanted == self._gave_up:
             self.problem = self._why
             return
@@ -112,8 +116,11 @@ class Stage:
 
 
 def preparation(recipe: dict) -> list:
-    """What of a recipe must be prepared: the rest are numbers."""
-    layers = [[layer.get(name) for name in ("matte", "fill", "feather")] for layer in recipe["layers"]]
+    """What of a recipe must be prepared: the rest are numbers. What drifts is made endless."""
+    layers = [
+        [*(layer.get(name) for name in ("matte", "fill", "feather", "follows")), layer["motion"]["type"] == "drift"]
+        for layer in recipe["layers"]
+    ]
     return [recipe.get("picture"), recipe["colour_space"], layers]
 
 

@@ -1,6 +1,7 @@
 """What a person prefers, whatever file is open: `preferences.of(context)`."""
 
 import os
+from pathlib import Path
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
@@ -57,11 +58,15 @@ class STILLWATER_AP_preferences(bpy.types.AddonPreferences):
         ],
     )
 
+    def cache(self) -> Path | None:
+        """The folder of the cache; None where each picture has its own, beside its recipe."""
+        return Path(os.path.abspath(bpy.path.abspath(self.cache_folder))) if self.cache_folder else None
+
     def worker_options(self) -> list[str]:
-        """How these reach `python -m stillwater render`."""
+        """How these reach `python -m stillwater`, `render` and `serve`."""
         options = ["--cache-limit", f"{self.cache_limit:.6g}"]
-        if self.cache_folder:
-            options += ["--cache", os.path.abspath(bpy.path.abspath(self.cache_folder))]
+        if cache := self.cache():
+            options += ["--cache", str(cache)]
         return [*options, "--threads", str(self.threads)] if self.threads else options
 
     def draw(self, context):

@@ -6,6 +6,8 @@ What a driver reads in the picture's scene is kept by the layer's id, what it re
 import re
 from collections.abc import Callable
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 from . import plain
 
 LAYER = re.compile(r"(?P<picture>stillwater\.pictures\[\d+\])\.layers\[(?P<layer>\d+)\]\.(?P<inside>.+)")
@@ -126,7 +128,7 @@ def _fill_target(variable, target, read: dict, picture, ids: dict[str, str], los
             wanted = ids.get(read["layer"], read["layer"])
             index = next((i for i, layer in enumerate(picture.layers) if layer.id == wanted), None)
             if index is None:
-                lost(f"{path} of a layer that is not in {picture.name}")
+                lost(rpt_("{path} of a layer that is not in {picture}").format(path=path, picture=picture.name))
             target.id, target.data_path = scene, "" if index is None else f"{here}.layers[{index}].{path}"
         case "picture":
             target.id, target.data_path = scene, f"{here}.{path}"
@@ -137,6 +139,6 @@ def _fill_target(variable, target, read: dict, picture, ids: dict[str, str], los
         case "datablock":
             block = plain.datablock(read["datablock"])
             if block is None:
-                name = read["datablock"][1] if read["datablock"] else "something"
-                lost(f"{name}, which is not in this file")
+                name = read["datablock"][1] if read["datablock"] else rpt_("something")
+                lost(rpt_("{name}, which is not in this file").format(name=name))
             target.id, target.data_path = block, path

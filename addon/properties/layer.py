@@ -14,13 +14,13 @@ class STILLWATER_PG_matte(bpy.types.PropertyGroup):
         name="Matte", description="What says which part of the picture the layer is", default="none", options=set(),
         items=[
             ("none", "None", "The whole picture: for the last layer, the background"),
-            ("file", "File", "An image: one channel, or grey"),
+            ("file", "File", "An image: one channel, or gray"),
             ("labels", "Labels", "All pixels of a label map that have one value"),
         ],
     )
     file: StringProperty(name="File", description="Image with the matte", subtype="FILE_PATH", options=names.PATH)
     channel: StringProperty(
-        name="Channel", description="Of the image, where it has it; else its grey",
+        name="Channel", description="Channel of the image; its gray where it has no such channel",
         default="A", maxlen=255, options=set(),
     )
     labels: StringProperty(name="Labels", description="Label map", subtype="FILE_PATH", options=names.PATH)
@@ -46,10 +46,10 @@ class STILLWATER_PG_follows(bpy.types.PropertyGroup):
 
     layer_id: StringProperty(options={"HIDDEN"})
     layer: StringProperty(
-        name="Follows", description="Goes with this layer: a shadow, a reflection", options=set(),
+        name="Follows", description="Layer that it goes with, as a shadow or a reflection does", options=set(),
         get=names.get_layer("layer_id"), set=names.set_layer("layer_id"), search=names.search_layers,
     )
-    mirror: BoolProperty(name="Mirror", description="Mirrored, as a reflection", options=set())
+    mirror: BoolProperty(name="Mirror", description="Mirror its motion, as a reflection does", options=set())
 
 
 def select_active(picture, context) -> None:
@@ -79,7 +79,7 @@ class STILLWATER_PG_layer(bpy.types.PropertyGroup):
         name="Solo", options=set(),
         description="See only the layers with a star while playing; what is baked are always all visible layers",
     )
-    opacity: FloatProperty(name="Opacity", description="Of the layer (0..1)", default=1, min=0, max=1, subtype="FACTOR")
+    opacity: FloatProperty(name="Opacity", description="How much of the layer is seen (0..1)", default=1, min=0, max=1, subtype="FACTOR")
     feather: FloatProperty(
         name="Feather", description="Softens the matte [px]", subtype="PIXEL",
         default=0, min=0, max=1000, soft_max=50, options=set(),

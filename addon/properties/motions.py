@@ -31,7 +31,7 @@ def place(name: str, description: str):
 
 def seed():
     return IntProperty(
-        name="Seed", description="Of the noise; -1 = one that follows from the names", default=-1, min=-1, options=set()
+        name="Seed", description="Start of the noise; -1 = one that follows from the names", default=-1, min=-1, options=set()
     )
 
 
@@ -108,7 +108,7 @@ class STILLWATER_PG_ripple(bpy.types.PropertyGroup):
         default=100, min=0.01, soft_min=1, max=1e5, soft_max=1000, options=set(),
     )
     depth: FloatProperty(
-        name="Depth", description="Of the water, for TMA [m]",
+        name="Depth", description="Depth of the water, for TMA [m]",
         default=200, min=0.01, soft_min=1, max=12000, soft_max=1000, options=set(),
     )
     seed: seed()
@@ -132,7 +132,7 @@ class STILLWATER_PG_drift(bpy.types.PropertyGroup):
     """Clouds: pass endlessly."""
 
     use_velocity: BoolProperty(
-        name="Own Velocity", description="Goes at a velocity of its own, not with the wind", options=set()
+        name="Own Velocity", description="Go at a velocity of its own, not with the wind", options=set()
     )
     velocity: FloatVectorProperty(
         name="Velocity", description="To the right and down [px/frame]", size=2, subtype="XYZ",

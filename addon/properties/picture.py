@@ -59,12 +59,12 @@ class STILLWATER_PG_view(bpy.types.PropertyGroup):
     horizon_start: place("Start", "A point of the horizon; may lie outside the picture")
     horizon_end: place("End", "Another point of the horizon; may lie outside the picture")
     fov: FloatProperty(
-        name="Field of View", description="Horizontal [degrees]", subtype="ANGLE",
+        name="Field of View", description="How wide the picture's view is, horizontally [degrees]", subtype="ANGLE",
         default=radians(50), min=radians(5), max=radians(150), soft_min=radians(20), soft_max=radians(100),
         options=set(),
     )
     height: FloatProperty(
-        name="Eye Height", description="Of the eye over the water [m]",
+        name="Eye Height", description="Height of the eye over the water [m]",
         default=1.7, min=0.001, soft_min=0.1, max=1e5, soft_max=100, options=set(),
     )
 
@@ -89,17 +89,17 @@ class STILLWATER_PG_output(bpy.types.PropertyGroup):
     """Where frames go and how they are written."""
 
     folder: StringProperty(
-        name="Folder", description="Of the frames, relative to the recipe's folder", default="frames", options=set()
+        name="Folder", description="Folder of the frames, relative to the recipe's folder", default="frames", options=set()
     )
     name: StringProperty(
         name="Name", description="Frames are NAME_0001.exr", default="frame", maxlen=200, options=set()
     )
     depth: EnumProperty(
-        name="Depth", description="Of the colour and matte channels", default="half", options=set(),
+        name="Depth", description="Precision of the color and matte channels", default="half", options=set(),
         items=[("half", "Half", "16 bit: enough for 8-bit pictures"), ("float", "Float", "32 bit")],
     )
     compression: EnumProperty(
-        name="Compression", description="Of the OpenEXR files", default="zip", options=set(),
+        name="Compression", description="How the OpenEXR files are compressed", default="zip", options=set(),
         items=[(name, name.upper(), f"OpenEXR's {name.upper()}") for name in COMPRESSIONS],
     )
     layers: BoolProperty(name="Layers", description="Each layer as its own EXR layer beside the whole", options=set())
@@ -121,14 +121,14 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
         name="Picture", description="Image file", subtype="FILE_PATH", options=names.PATH, update=image.follow
     )
     colour_space: EnumProperty(
-        name="Color Space", description="Of the picture", default="auto", options=set(), update=image.follow,
+        name="Color Space", description="Color space of the picture's file", default="auto", options=set(), update=image.follow,
         items=[
             ("auto", "Auto", "Linear for EXR and HDR, sRGB else"),
             ("srgb", "sRGB", "As most pictures are"),
             ("linear", "Linear", "Scene-linear Rec.709"),
         ],
     )
-    seed: IntProperty(name="Seed", description="Of all noise", default=0, min=0, options=set())
+    seed: IntProperty(name="Seed", description="All random numbers follow from it: another seed, another motion of the same kind", default=0, min=0, options=set())
     loop: BoolProperty(name="Loop", description="The last frame runs into the first without a seam", options=set())
     wind: PointerProperty(type=STILLWATER_PG_wind)
     view: PointerProperty(type=STILLWATER_PG_view)

@@ -4,6 +4,7 @@ import ast
 import re
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 
 def values_of(group, but: tuple = ()) -> dict:
@@ -17,7 +18,7 @@ def set_values(group, values: dict) -> None:
     for name, value in values.items():
         kind = group.bl_rna.properties.get(name)
         if name not in type(group).__annotations__ or kind is None:
-            raise ValueError(f'"{name}" is not known to this version of Stillwater')
+            raise ValueError(rpt_('"{name}" is not known to this version of Stillwater').format(name=name))
         if kind.type == "COLLECTION":
             items = getattr(group, name)
             items.clear()
@@ -64,4 +65,5 @@ def _set(group, name: str, value) -> None:
     try:
         setattr(group, name, value)
     except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}: {value!r} is not a value that it can have") from error
+        sentence = rpt_("{name}: {value!r} is not a value that it can have")
+        raise ValueError(sentence.format(name=name, value=value)) from error

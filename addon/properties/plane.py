@@ -1,5 +1,6 @@
 """Where the picture's pixels lie in the scene: on its plane, an image Empty."""
 
+from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix
 
 
@@ -11,7 +12,8 @@ def pixels_to_world(picture) -> Matrix:
     """
     plane, (width, height) = picture.plane, picture.picture_size
     if plane is None or not width or not height:
-        raise ValueError(f"{picture.name}: has no plane in the scene; open its picture again")
+        sentence = rpt_("{name}: has no plane in the scene; make it anew with Set Up in Scene")
+        raise ValueError(sentence.format(name=picture.name))
     unit = plane.empty_display_size / max(width, height)
     left, bottom = plane.empty_image_offset[0] * width, plane.empty_image_offset[1] * height
     pixels = Matrix(((unit, 0, 0, left * unit), (0, -unit, 0, (bottom + height) * unit), (0, 0, unit, 0), (0, 0, 0, 1)))

@@ -6,8 +6,10 @@ another form (points, the horizon, layers by id) has a function of its own here.
 
 from collections.abc import Callable
 
+import numpy as np
+
 from .animation import Animation
-from .numbers import over_time, plain
+from .numbers import over_time, plain, plain_all
 
 Locate = Callable[[str], str]  # a path as Blender keeps it -> as the recipe has it
 Drawn = Callable[[str, str], list | None]  # a layer's id ("" = the picture), a role -> what its strokes say, if any
@@ -55,21 +57,24 @@ def _value(group, name: str, animation: Animation):
     if kind.type != "FLOAT":
         return value
     numbers = list(value) if kind.is_array else [value]
-    rows = _rows(group, name, numbers, animation) if kind.is_animatable else [numbers]
     low, high = kind.hard_min, kind.hard_max
-    limited = [[min(max(v, low), high) for v in row] for row in rows]
-    written = [[plain(v, kind.subtype) for v in row] for row in limited]
-    return over_time(written if kind.is_array else [row[0] for row in written], animation.frames.start)
+    columns = _columns(group, name, numbers, animation) if kind.is_animatable else None
+    if columns is None:
+        written = [plain(min(max(v, low), high), kind.subtype) for v in numbers]
+        return written if kind.is_array else written[0]
+    written = [plain_all(np.clip(column, low, high), kind.subtype) for column in columns]
+    values = list(map(list, zip(*written, strict=True))) if kind.is_array else written[0]
+    return over_time(values, animation.frames.start)
 
 
-def _rows(group, name: str, numbers: list[float], animation: Animation) -> list:
-    """The numbers of one property for each frame, or once where nothing animates them; a part may be animated alone."""
+def _columns(group, name: str, numbers: list[float], animation: Animation) -> list | None:
+    """Each number of one property over all frames; None where nothing animates it. A part may be animated alone."""
     path = f"{group.path_from_id()}.{name}"
     columns = [animation.values(path, i) for i in range(len(numbers))]
     if not any(columns):
-        return [numbers]
+        return None
     still = [[number] * len(animation.frames) for number in numbers]
-    return list(zip(*(column or held for column, held in zip(columns, still, strict=True)), strict=True))
+    return [column or held for column, held in zip(columns, still, strict=True)]
 
 
 def _line(group, start: str, end: str) -> list:

@@ -6,6 +6,7 @@ brings back what stands in a scene, but never its tool settings: which scenes ha
 """
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 import numpy as np
 
 from .. import versions
@@ -75,7 +76,8 @@ def hint(scene) -> str:
     if picture is None:
         return ""
     layer = names.layer_by_id(picture, scene.stillwater.drawing.layer_id)
-    return f"{role.name} of {layer.name if layer else picture.name}: {role.hint}"
+    sentence = rpt_("{role} of {name}: {hint}")
+    return sentence.format(role=rpt_(role.name), name=layer.name if layer else picture.name, hint=rpt_(role.hint))
 
 
 def look_after(*_) -> None:
@@ -114,7 +116,8 @@ def _is_drawing(scene) -> bool:
 def _holder(context, picture):
     """The picture's grease-pencil object, made where there is none, and shown."""
     if picture.plane is None:
-        raise ValueError(f"{picture.name}: has no plane in the scene to draw on; open its picture again")
+        sentence = rpt_("{name}: has no plane in the scene to draw on; make it anew with Set Up in Scene")
+        raise ValueError(sentence.format(name=picture.name))
     holder = picture.strokes
     if gp_layers.data_of(picture) is None:
         name = f"{picture.name} Strokes"
@@ -125,7 +128,8 @@ def _holder(context, picture):
         holder.hide_viewport = False
         holder.hide_set(False)
     if not holder.visible_get():
-        raise ValueError(f"{holder.name}: is not visible in this view layer; show its collection to draw")
+        sentence = rpt_("{name}: is not visible in this view layer; show its collection to draw")
+        raise ValueError(sentence.format(name=holder.name))
     return holder
 
 

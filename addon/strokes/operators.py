@@ -1,8 +1,11 @@
 """Draw strokes of a role, give strokes another role, delete them."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.app.translations import pgettext_tip as tip_
 from bpy.props import EnumProperty, StringProperty
 
+from ..ui import polls
 from . import change, draw_mode, gp_layers, roles
 
 ITEMS = [(role.key, role.name, role.hint, role.icon, role.number) for role in roles.ROLES]
@@ -18,14 +21,12 @@ class OfRole:
 
     @classmethod
     def poll(cls, context):
-        picture = context.scene.stillwater.active()
-        if picture is None:
-            cls.poll_message_set("The scene has no Stillwater picture yet")
-        elif picture.plane is None:
-            cls.poll_message_set("The picture has no plane in the scene; open its picture again")
-        else:
-            return True
-        return False
+        if not polls.own_picture(cls, context):
+            return False
+        if context.scene.stillwater.active().plane is None:
+            cls.poll_message_set(tip_("The picture has no plane in the scene; make it anew with Set Up in Scene"))
+            return False
+        return True
 
     def execute(self, context):
         picture, role = context.scene.stillwater.active(), roles.by_key(self.role)
@@ -41,10 +42,13 @@ class OfRole:
             return None
         index = picture.layers.find(self.layer) if self.layer else picture.active_layer
         if not 0 <= index < len(picture.layers):
-            raise ValueError(f"{self.layer or 'Active layer'}: {picture.name} has no such layer")
+            sentence = rpt_("{layer}: {picture} has no such layer")
+            raise ValueError(sentence.format(layer=self.layer or rpt_("Active layer"), picture=picture.name))
         layer = picture.layers[index]
         if layer.motion.type != role.motion:
-            raise ValueError(f"{layer.name}: only a layer with the motion {role.motion.title()} has a {role.name}")
+            sentence = rpt_("{layer}: only a layer with the motion {motion} has a {role}")
+            motion = rpt_(role.motion.title())
+            raise ValueError(sentence.format(layer=layer.name, motion=motion, role=rpt_(role.name)))
         return layer
 
 
@@ -57,7 +61,7 @@ class STILLWATER_OT_draw_stroke(OfRole, bpy.types.Operator):
 
     @classmethod
     def description(cls, context, properties):
-        return roles.by_key(properties.role).hint
+        return tip_(roles.by_key(properties.role).hint)
 
     def invoke(self, context, event):
         if self.properties.is_property_set("role"):
@@ -80,7 +84,7 @@ class STILLWATER_OT_stop_drawing(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if not context.scene.stillwater.drawing.role:
-            cls.poll_message_set("No Stillwater stroke is being drawn")
+            cls.poll_message_set(tip_("No Stillwater stroke is being drawn"))
             return False
         return True
 
@@ -102,14 +106,14 @@ class STILLWATER_OT_change_role(OfRole, bpy.types.Operator):
         if not super().poll(context):
             return False
         if context.mode != "EDIT_GREASE_PENCIL" or context.object != picture.strokes:
-            cls.poll_message_set("Select strokes of the picture in edit mode first")
+            cls.poll_message_set(tip_("Select strokes of the picture in edit mode first"))
             return False
         return True
 
     def do(self, context, picture, layer, role):
         part = gp_layers.ensure(picture, layer.id if layer else "", role)
         if part.hide or part.lock:
-            raise ValueError(f"{part.name}: is hidden or locked; show and unlock it first")
+            raise ValueError(rpt_("{name}: is hidden or locked; show and unlock it first").format(name=part.name))
         return change.move_selected(context, picture, part, role)
 
 

@@ -1,6 +1,7 @@
 """The roles that the active layer's and the picture's strokes have: drawn or not, with a button each."""
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 from ..ui import sidebar
 from . import draw_mode, read, roles
@@ -47,7 +48,7 @@ class STILLWATER_TL_stroke(bpy.types.WorkSpaceTool):
 
     def draw_settings(context, layout, tool):
         hint = draw_mode.hint(context.scene)
-        text = hint or "Choose what to draw in the sidebar, tab Stillwater"
+        text = hint or iface_("Choose what to draw in the sidebar, tab Stillwater")
         if context.region.type == "TOOL_HEADER":
             layout.label(text=text, icon="INFO")
         else:

@@ -6,6 +6,7 @@ their key on reads every key; any other reads the drawing that the scene's first
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..properties import plane
 from . import control_points, gp_layers, projection
@@ -28,7 +29,7 @@ def strokes(scene, picture, layer_id: str, role: Role) -> list[Stroke]:
             for key in keys:
                 found += _in_drawing(picture.strokes, part, key, seen)
         except ValueError as error:
-            raise ValueError(f"{part.name}: a stroke {error}") from error
+            raise ValueError(rpt_("{name}: a stroke {error}").format(name=part.name, error=rpt_(str(error)))) from error
     return found
 
 
@@ -61,7 +62,8 @@ def _projection(picture) -> projection.Projection:
     try:
         return projection.onto_picture(pixels, _eye(picture.camera))
     except projection.OutOfSight as error:
-        raise ValueError(f"{picture.name}: {error}; turn one of them") from error
+        sentence = rpt_("{name}: {error}; turn one of them")
+        raise ValueError(sentence.format(name=picture.name, error=rpt_(str(error)))) from error
 
 
 def _eye(camera) -> np.ndarray | None:

@@ -8,6 +8,7 @@ import re
 import textwrap
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
 EDITORS = ("VIEW_3D", "NODE_EDITOR")
 # Of a sidebar at scale 1, pixels: what its tabs and an icon take, a character on average, its width by default.
@@ -82,8 +83,9 @@ def label(kind) -> str:
     """
     found = re.search(r" \[([\w/]+)\]$", kind.description)
     shown = getattr(kind, "subtype", "NONE") in ("PIXEL", "ANGLE")
-    whole = f"{kind.name} ({found[1]})" if found else kind.name
-    return kind.name if shown or len(whole) > LABEL else whole
+    name = iface_(kind.name)
+    whole = f"{name} ({found[1]})" if found else name
+    return name if shown or len(whole) > LABEL else whole
 
 
 def fold(layout, identifier: str, text: str, closed: bool = True):

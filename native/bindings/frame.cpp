@@ -50,13 +50,19 @@ Frame render(const FrameRenderer& renderer, const Moment& now, const Moment& aft
   return renderer.render(numbers, next, {.flow = flow, .matte = true, .layers = layers});
 }
 
+using Endlesses = std::vector<std::pair<FloatArray, FloatArray>>;  // pixels and mean, of colours and of alpha
+
 Plates plates_of(const LayerImage& colour, const std::optional<LayerImage>& alpha, Size size, double scale,
-                 std::optional<Axes> drifting) {
+                 std::optional<Axes> drifting, const Endlesses& made) {
+  std::vector<EndlessPixels> before;
+  for (const auto& [pixels, mean] : made)
+    before.push_back({as_image<cv::Vec4f>(pixels, "endless"), as_image<cv::Vec4f>(mean, "endless")});
   const py::gil_scoped_release release;
   std::optional<Endless> endless;
   if (drifting) endless = Endless{drifting->first, drifting->second};
   return std::const_pointer_cast<LayerPlates>(
-      make_plates(colour, alpha.value_or(LayerImage()), {size.first, size.second}, scale, endless));
+      make_plates(colour, alpha.value_or(LayerImage()), {size.first, size.second}, scale, endless,
+                  {before.empty() ? nullptr : &before[0], before.size() < 2 ? nullptr : &before[1]}));
 }
 
 void render_for_screen(const FrameRenderer& renderer, ExactArray& out, const Moment& now,
@@ -99,7 +105,18 @@ void bind_frame(py::module_& module) {
       py::call_guard<py::gil_scoped_release>());
   py::class_<LayerPlates, Plates>(module, "LayerPlates", "A layer ready for any moment.");
   module.def("make_plates", &plates_of, py::arg("colour"), py::arg("alpha"), py::arg("size"), py::arg("scale"),
-             py::arg("drifting"));
+             py::arg("drifting"), py::arg("endless") = Endlesses());
+  module.def(
+      "make_endless",
+      [](const LayerImage& layer, Size size, double scale, Axes along) {
+        EndlessPixels made;
+        {
+          const py::gil_scoped_release release;
+          made = make_endless(layer, {size.first, size.second}, scale, {along.first, along.second});
+        }
+        return std::pair(as_array(made.pixels), as_array(made.mean));
+      },
+      py::arg("layer"), py::arg("size"), py::arg("scale"), py::arg("along"));
   py::class_<LayerSetup>(module, "Layer")
       .def(py::init(&layer_setup), py::arg("image"), py::arg("motion") = MotionNumbers(), py::arg("water") = -1,
            py::arg("follows") = -1, py::arg("mirror") = false, py::arg("visible") = true,

@@ -88,6 +88,14 @@ void bind_wind(py::module_& module) {
           },
           py::arg("place"), py::arg("moment"))
       .def(
+          "factors",
+          [](const GustField& gusts, Pair first, Pair step, int count, const Moment& moment) {
+            std::vector<float> factors(count);
+            gusts.factors(as_point(first), as_point(step), moment, count, factors.data());
+            return factors;
+          },
+          py::arg("first"), py::arg("step"), py::arg("count"), py::arg("moment"))
+      .def(
           "response",
           [](const GustField& gusts, Pair place, const Moment& moment, double frequency, double mass, double damping) {
             return gusts.response(as_point(place), moment, {frequency, mass, damping});

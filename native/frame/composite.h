@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "layers/layer_motion.h"
@@ -28,6 +29,14 @@ struct CompositionWish {
 /// The flow belongs to the front-most layer at which the coverage from the front reaches one half, else to the layer
 /// that contributes most; it is 0 where there is no layer.
 Composition compose(const std::vector<ComposedLayer>& layers, const cv::Size& size, CompositionWish wish);
+
+/// One tile of that, its colours alone: pixels `tile` of the output.
+Rgba compose_tile(const std::vector<ComposedLayer>& layers, const cv::Rect& tile);
+
+/// Composes colours tile by tile, for who needs no whole image: `take` gets each tile's place in the output and its
+/// pixels, which it may change; several threads call it. No tile is wider than Run::longest.
+void compose_tiles(const std::vector<ComposedLayer>& layers, const cv::Size& size,
+                   const std::function<void(const cv::Rect& tile, Rgba pixels)>& take);
 
 /// One layer alone, over nothing.
 Rgba compose_alone(const ComposedLayer& layer, const cv::Size& size);

@@ -98,19 +98,25 @@ class CrossFadedLayer final : public TravellingLayer {
   cv::Rect bounds_;
 };
 
-CrossFade::CrossFade(const Plate& plate) {
-  if (plate.source.empty()) return;
-  const Rgba pixels = plate.source.pixels();
-  const double sigma = std::max(1.0, mean_sigma * plate.picture_width * plate.scale);
+double CrossFade::mean_sigma_of(int picture_width, double scale) {
+  return std::max(1.0, mean_sigma * picture_width * scale);
+}
+
+Rgba CrossFade::mean_of(const Rgba& pixels, double sigma, bool endless_x, bool endless_y) {
+  if (pixels.empty()) return {};
   const double coarser = std::max(1.0, sigma / coarse_sigma);
   const cv::Size size(std::max(1, static_cast<int>(std::lround(pixels.cols / coarser))),
                       std::max(1, static_cast<int>(std::lround(pixels.rows / coarser))));
   Rgba small;
   cv::resize(pixels, small, size, 0, 0, cv::INTER_AREA);
-  mean_ = Source(blurred(small, sigma / coarser, plate.endless_x, plate.endless_y), plate.source.across(),
-                 plate.source.down());
-  columns_ = static_cast<float>(size.width) / static_cast<float>(pixels.cols);
-  rows_ = static_cast<float>(size.height) / static_cast<float>(pixels.rows);
+  return blurred(small, sigma / coarser, endless_x, endless_y);
+}
+
+CrossFade::CrossFade(const Plate& plate, const Rgba& mean) {
+  if (plate.source.empty()) return;
+  mean_ = Source(mean, plate.source.across(), plate.source.down());
+  columns_ = static_cast<float>(mean.cols) / static_cast<float>(plate.source.width());
+  rows_ = static_cast<float>(mean.rows) / static_cast<float>(plate.source.height());
 }
 
 // Places in the plate's index coordinates.

@@ -17,8 +17,12 @@ namespace stillwater {
 ///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2 + 2 w1 w2 rho),   M = w1 M1 + w2 M2
 class CrossFade {
  public:
-  /// Of the layer with this plate.
-  explicit CrossFade(const Plate& plate);
+  /// M of a layer with these pixels, on a coarse grid. `sigma`: of the blur, pixels (mean_sigma_of()).
+  static Rgba mean_of(const Rgba& pixels, double sigma, bool endless_x, bool endless_y);
+  static double mean_sigma_of(int picture_width, double scale);
+
+  /// Of the layer with this plate, whose mean_of() is given.
+  CrossFade(const Plate& plate, const Rgba& mean);
 
   /// The layer at one moment. `plate`: the same. The answer refers to both.
   std::unique_ptr<LayerMotion> at(const Plate& plate, const Placement& now, const Travel& travel) const;

@@ -6,7 +6,6 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "core/parallel.h"
 #include "picture/colour.h"
 
 namespace stillwater {
@@ -131,14 +130,19 @@ void FrameRenderer::render_for_screen(const FrameNumbers& now, ScreenWish wish, 
     for (int i = 0; i < static_cast<int>(seen.layers.size()); ++i)
       if (i != wish.layer) seen.layers[i].opacity = 0;
   }
-  const Rgba picture = render(seen, seen, {.flow = false, .matte = false}).combined;
-  parallel_rows(picture.rows, 16, [&](int first, int last) {
-    std::vector<cv::Vec4f> grey(wish.coverage ? picture.cols : 0);
-    for (int y = first; y < last; ++y) {
-      const cv::Vec4f* row = picture[y];
-      for (size_t x = 0; x < grey.size(); ++x) grey[x] = {row[x][3], row[x][3], row[x][3], 1};
-      const float* shown = wish.coverage ? grey.front().val : row->val;
-      display_to_scene(shown, rgba + static_cast<size_t>(picture.rows - 1 - y) * picture.cols * 4, picture.cols);
+  const std::vector<Placement> placed = motions_->at(seen.moment, motion_numbers(seen));
+  const std::vector<Travel> nowhere(layers_.size());
+  const LayerMotions motions = motions_of(placed, nowhere, false);
+  const LayerMotions of_alpha = picture_.has_alpha ? motions_of(placed, nowhere, true) : LayerMotions();
+  const std::vector<ComposedLayer> layers = composed(motions, seen);
+  const std::vector<ComposedLayer> alpha = picture_.has_alpha ? composed(of_alpha, seen) : layers;
+  compose_tiles(layers, size_, [&](const cv::Rect& tile, Rgba pixels) {
+    if (picture_.has_alpha) take_alpha(pixels, compose_tile(alpha, tile));
+    for (int y = 0; y < tile.height; ++y) {
+      if (wish.coverage)
+        for (int x = 0; x < tile.width; ++x) pixels(y, x) = {pixels(y, x)[3], pixels(y, x)[3], pixels(y, x)[3], 1};
+      const size_t row = size_.height - 1 - (tile.y + y);
+      display_to_scene(pixels[y]->val, rgba + (row * size_.width + tile.x) * 4, tile.width);
     }
   });
 }

@@ -13,11 +13,16 @@ namespace {
 
 int scaled_side(int side, double scale) { return std::max(1, static_cast<int>(std::lround(side * scale))); }
 
-// The layer on a canvas that covers the whole picture (of this size) along some axes.
-LayerImage on_canvas(const LayerImage& layer, cv::Size whole, Endless along) {
-  cv::Rect canvas = layer.box;
+// A box made to cover the whole picture (of this size) along some axes.
+cv::Rect canvas_of(const cv::Rect& box, cv::Size whole, Endless along) {
+  cv::Rect canvas = box;
   if (along.x) canvas.x = 0, canvas.width = whole.width;
   if (along.y) canvas.y = 0, canvas.height = whole.height;
+  return canvas;
+}
+
+LayerImage on_canvas(const LayerImage& layer, cv::Size whole, Endless along) {
+  const cv::Rect canvas = canvas_of(layer.box, whole, along);
   if (canvas == layer.box) return layer;
   LayerImage wide{Rgba::zeros(canvas.size()), canvas};
   layer.pixels.copyTo(wide.pixels(layer.box - canvas.tl()));
@@ -45,17 +50,16 @@ cv::Size canvas_size(cv::Size picture, double output_scale) {
   return {cvRound(picture.width * output_scale), cvRound(picture.height * output_scale)};
 }
 
-// At the picture's border a layer goes on, mirrored; elsewhere it ends.
-Plate as_plate(const LayerImage& scaled, const cv::Rect& layer_box, cv::Size picture, double output_scale,
-               Endless endless) {
-  const Rgba& pixels = scaled.pixels;
-  const cv::Rect& box = scaled.box;
+// At the picture's border a layer goes on, mirrored; elsewhere it ends. `box`: of the pixels before they became
+// endless.
+Plate as_plate(const Rgba& pixels, const cv::Rect& box, const cv::Rect& layer_box, cv::Size picture,
+               double output_scale, Endless endless) {
   const double scale = std::min(1.0, output_scale);
   const cv::Size whole(scaled_side(picture.width, scale), scaled_side(picture.height, scale));
   const Beyond across{endless.x, box.x == 0, box.br().x >= whole.width};
   const Beyond down{endless.y, box.y == 0, box.br().y >= whole.height};
   Plate plate;
-  plate.source = Source(endless.x || endless.y ? make_cyclic(pixels, endless.x, endless.y) : pixels, across, down);
+  plate.source = Source(pixels, across, down);
   plate.origin = {static_cast<double>(box.x), static_cast<double>(box.y)};
   plate.scale = scale;
   plate.output_scale = output_scale;
@@ -83,8 +87,34 @@ LayerImage scaled_layer(const LayerImage& layer, cv::Size picture, double output
   return pixel;
 }
 
+namespace {
+
+// Of a layer at the scale of its plates.
+EndlessPixels endless_pixels(const LayerImage& scaled, cv::Size picture, double output_scale, Endless along) {
+  const Rgba wide = on_canvas(scaled, canvas_size(picture, output_scale), along).pixels;
+  const Rgba pixels = along.x || along.y ? make_cyclic(wide, along.x, along.y) : wide;
+  const double sigma = CrossFade::mean_sigma_of(picture.width, std::min(1.0, output_scale));
+  return {pixels, CrossFade::mean_of(pixels, sigma, along.x, along.y)};
+}
+
+void check_made_before(const EndlessPixels& before, const cv::Rect& canvas, Endless along) {
+  const cv::Size size(along.x ? cyclic_period(canvas.width) : canvas.width,
+                      along.y ? cyclic_period(canvas.height) : canvas.height);
+  if (before.pixels.size() != size || before.mean.empty())
+    throw BadInput("endless: made for another layer, scale or way of drifting");
+}
+
+}  // namespace
+
+EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along) {
+  check("layer", layer, picture);
+  if (layer.box.empty()) return {};
+  return endless_pixels(scaled_layer(layer, picture, output_scale), picture, output_scale, along);
+}
+
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
-                                               double output_scale, std::optional<Endless> drifting) {
+                                               double output_scale, std::optional<Endless> drifting,
+                                               MadeBefore before) {
   check("colour", colour, picture);
   check("alpha", alpha, picture);
   auto plates = std::make_shared<LayerPlates>();
@@ -92,16 +122,23 @@ std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const L
   plates->picture = picture;
   plates->output_scale = output_scale;
   plates->drifting = drifting;
-  const Endless endless = drifting.value_or(Endless());
-  const auto fill = [&](const LayerImage& layer, Plate& plate, std::unique_ptr<const CrossFade>& fade) {
+  const Endless along = drifting.value_or(Endless());
+  const auto fill = [&](const LayerImage& layer, const EndlessPixels* made, Plate& plate,
+                        std::unique_ptr<const CrossFade>& fade) {
     if (layer.box.empty()) return;
     const LayerImage scaled = scaled_layer(layer, picture, output_scale);
-    const LayerImage wide = on_canvas(scaled, canvas_size(picture, output_scale), endless);
-    plate = as_plate(wide, layer.box, picture, output_scale, endless);
-    if (drifting) fade = std::make_unique<CrossFade>(plate);
+    if (!drifting) {
+      plate = as_plate(scaled.pixels, scaled.box, layer.box, picture, output_scale, along);
+      return;
+    }
+    const cv::Rect canvas = canvas_of(scaled.box, canvas_size(picture, output_scale), along);
+    if (made) check_made_before(*made, canvas, along);
+    const EndlessPixels endless = made ? *made : endless_pixels(scaled, picture, output_scale, along);
+    plate = as_plate(endless.pixels, canvas, layer.box, picture, output_scale, along);
+    fade = std::make_unique<CrossFade>(plate, endless.mean);
   };
-  fill(colour, plates->colour, plates->colour_fade);
-  fill(alpha, plates->alpha, plates->alpha_fade);
+  fill(colour, before.colour, plates->colour, plates->colour_fade);
+  fill(alpha, before.alpha, plates->alpha, plates->alpha_fade);
   return plates;
 }
 

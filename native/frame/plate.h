@@ -20,6 +20,13 @@ struct Endless {
 /// `picture` is the whole picture's size; the box comes back in pixels of that scale.
 LayerImage scaled_layer(const LayerImage& layer, cv::Size picture, double output_scale);
 
+/// What of a layer that drifts takes long to make: its pixels without an end (make_cyclic()), and CrossFade's mean.
+struct EndlessPixels {
+  Rgba pixels, mean;
+};
+
+EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along);
+
 /// A layer as frames read it: ready for any moment, whatever the numbers of its motion are.
 struct LayerPlates {
   cv::Rect box;                     ///< where the layer lies, picture pixels
@@ -30,9 +37,16 @@ struct LayerPlates {
   std::unique_ptr<const CrossFade> colour_fade, alpha_fade;  ///< of a layer that drifts; they belong to these plates
 };
 
-/// An endless layer is continued by make_cyclic(). Throws BadInput where a box does not fit its pixels or the picture.
+/// What make_endless() gave for a layer that drifts, where that was called before.
+struct MadeBefore {
+  const EndlessPixels* colour = nullptr;
+  const EndlessPixels* alpha = nullptr;
+};
+
+/// Throws BadInput where a box does not fit its pixels or the picture, or what was made before not the layer.
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
-                                               double output_scale, std::optional<Endless> drifting);
+                                               double output_scale, std::optional<Endless> drifting,
+                                               MadeBefore before = {});
 
 /// Length of one period of an endless layer's plate along x and y, in picture pixels.
 Point plate_period(cv::Size picture, double output_scale);

@@ -24,6 +24,12 @@ static inline int stillwater_any(stillwater_lanes mask) {
   return (half[0] | half[1]) != 0;
 }
 
+static inline int stillwater_all(stillwater_lanes mask) {
+  long long half[2];
+  memcpy(half, &mask, sizeof half);
+  return (half[0] & half[1]) == -1;
+}
+
 /// `drawn` (premultiplied rgba, `count` pixels, three more may be read) goes under the run. Pixels that are not needed
 /// are passed by. The layer `index` becomes the owner of a pixel whose coverage from the front it brings to one half;
 /// until then the layer that contributes most owns it. Answers how many pixels are needed no more.
@@ -46,8 +52,14 @@ static inline int stillwater_lay_under(const float* drawn, float opacity, float 
     const stillwater_four share = behind * opacity, covered = share * coverage;
     const stillwater_lanes seen = open & (covered > 0.0f);
     if (!stillwater_any(seen)) continue;
-    for (int k = 0; k < 4; ++k)
-      if (seen[k]) *(stillwater_four*)(run.combined + 4 * (i + k)) += share[k] * *(const stillwater_four*)(colour + 4 * k);
+    float* combined = run.combined + 4 * i;
+    if (stillwater_all(seen)) {
+      for (int k = 0; k < 4; ++k)
+        *(stillwater_four*)(combined + 4 * k) += share[k] * *(const stillwater_four*)(colour + 4 * k);
+    } else {
+      for (int k = 0; k < 4; ++k)
+        if (seen[k]) *(stillwater_four*)(combined + 4 * k) += share[k] * *(const stillwater_four*)(colour + 4 * k);
+    }
 
     const stillwater_four contribution = seen ? covered : none;
     const stillwater_four left = behind - contribution;
@@ -58,6 +70,10 @@ static inline int stillwater_lay_under(const float* drawn, float opacity, float 
     through = left;
     const stillwater_lanes done = open & (left <= closed_below);
     if (!stillwater_any(done)) continue;
+    if (stillwater_all(done)) {
+      memset(run.needed + i, 0, 4), closed += 4;
+      continue;
+    }
     for (int k = 0; k < 4; ++k)
       if (done[k]) run.needed[i + k] = 0, ++closed;
   }

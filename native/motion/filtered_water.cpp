@@ -53,13 +53,15 @@ LocalWind::LocalWind(const GustField& field, const Moment& moment, const WaterPl
   const auto before = [&](double place) { return static_cast<int>(std::floor(place / spacing_)); };
   first_column_ = before(left) - 1, first_line_ = before(top) - 1;
   factors_.create(before(bottom) + 3 - first_line_, before(right) + 3 - first_column_);
+  const auto corner_at = [&](int i, int j) {
+    return plane.picture({static_cast<double>((first_column_ + i) * spacing_),
+                          static_cast<double>((first_line_ + j) * spacing_)});
+  };
   parallel_rows(factors_.rows, 1, [&](int first, int last) {
-    for (int j = first; j < last; ++j)
-      for (int i = 0; i < factors_.cols; ++i) {
-        const Point level{static_cast<double>((first_column_ + i) * spacing_),
-                          static_cast<double>((first_line_ + j) * spacing_)};
-        factors_(j, i) = static_cast<float>(field.factor(plane.picture(level), moment));
-      }
+    for (int j = first; j < last; ++j) {
+      const Point left_end = corner_at(0, j), next = corner_at(1, j);
+      field.factors(left_end, {next.x - left_end.x, next.y - left_end.y}, moment, factors_.cols, factors_[j]);
+    }
   });
   largest_ = *std::max_element(factors_.begin(), factors_.end());
 }

@@ -1,5 +1,6 @@
 #include "motion/gusts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -53,6 +54,25 @@ double GustField::factor(Point place, const Moment& moment) const {
   std::complex<double> sum = 0;
   for (const std::complex<double>& strength : at(place, moment).strength) sum += strength;
   return 1 - moment.wind.gusts + moment.wind.gusts * std::norm(sum);
+}
+
+void GustField::factors(Point first, Point step, const Moment& moment, int count, float* out) const {
+  if (moment.wind.gusts == 0) {
+    std::fill_n(out, count, 1.0f);
+    return;
+  }
+  Waves here = at(first, moment);
+  std::array<std::complex<double>, waves> turned;
+  for (int j = 0; j < waves; ++j)
+    turned[j] = std::polar(1.0, metres_per_pixel_ * dot(here.number[j], {step.x, -step.y}));
+  for (int i = 0; i < count; ++i) {
+    std::complex<double> sum = 0;
+    for (int j = 0; j < waves; ++j) {
+      sum += here.strength[j];
+      here.strength[j] *= turned[j];
+    }
+    out[i] = static_cast<float>(1 - moment.wind.gusts + moment.wind.gusts * std::norm(sum));
+  }
 }
 
 double GustField::response(Point place, const Moment& moment, const Oscillator& oscillator) const {

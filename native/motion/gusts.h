@@ -36,6 +36,9 @@ class GustField {
   /// Local over mean wind speed at a picture point: 1 - gusts + gusts g. Never negative, 1 where gusts is 0.
   double factor(Point place, const Moment& moment) const;
 
+  /// The same at `count` places in a line, `step` apart: each wave turns by the same angle from one to the next.
+  void factors(Point first, Point step, const Moment& moment, int count, float* out) const;
+
   /// Motion of an oscillator at `place` under the force factor - 1 in this moment's wind.
   double response(Point place, const Moment& moment, const Oscillator& oscillator) const;
 

@@ -51,15 +51,20 @@ void halve_columns(const std::vector<float>& from, int height, int stride, std::
   }
 }
 
+// `from` goes on behind its width.
 void halve_row(const float* from, int width, float* to) {
-  for (int x = 0; x < width / 2; ++x) {
-    const auto at = [&](int dx) { return from[(2 * x + dx + width) % width]; };
-    to[x] = (at(-2) + at(2) + 4 * (at(-1) + at(1)) + 6 * at(0)) * (1.0f / 16);
+  const auto halved = [](float a, float b, float c, float d, float e) {
+    return (a + e + 4 * (b + d) + 6 * c) * (1.0f / 16);
+  };
+  to[0] = halved(from[width - 2], from[width - 1], from[0], from[1], from[2]);
+  for (int x = 1; x < width / 2; ++x) {
+    const float* at = from + 2 * x;
+    to[x] = halved(at[-2], at[-1], at[0], at[1], at[2]);
   }
 }
 
 void continue_row(float* row, int width, int stride) {
-  for (int x = width; x < stride; ++x) row[x] = row[x - width];
+  for (int x = width; x < stride; x += width) std::copy_n(row, std::min(width, stride - x), row + x);
 }
 
 }  // namespace

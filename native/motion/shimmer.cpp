@@ -4,12 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/cpu.h"
 #include "core/random.h"
+#include "motion/shimmer_avx2.h"
+#include "motion/shimmer_kernel.h"
 
 namespace stillwater {
 namespace {
 
-constexpr int side = 64;  // nodes of the lattice; a power of two
+constexpr int side = shimmer_side;
 constexpr double slowest = 2, fastest = 5;  // Hz
 constexpr double half_wind = 2.5;           // m/s
 
@@ -26,15 +29,20 @@ struct Weights {
   float w[3], slope[3];
 };
 
-// Quadratic B-spline at f from the middle node, -0.5 .. 0.5.
 Weights weights(float f) {
-  const float before = 0.5f - f, after = 0.5f + f;
-  return {{0.5f * before * before, 0.75f - f * f, 0.5f * after * after}, {-before, -2 * f, after}};
+  Weights weights{{}, {f - 0.5f, -2 * f, f + 0.5f}};
+  shimmer_weights(f, weights.w);
+  return weights;
 }
+
+// The nodes at a moment, px.
+struct Nodes {
+  std::vector<float> x, y;
+};
 
 class LeavesAtMoment : public Displacement {
  public:
-  LeavesAtMoment(const Segment& armature, float cell, float longest, std::vector<Swing> nodes)
+  LeavesAtMoment(const Segment& armature, float cell, float longest, Nodes nodes)
       : root_x_(static_cast<float>(armature.from.x)),
         root_y_(static_cast<float>(armature.from.y)),
         per_cell_(1 / cell),
@@ -47,11 +55,8 @@ class LeavesAtMoment : public Displacement {
   float reach() const override { return longest_; }
 
   void unmap(float* x, float* y, int count) const override {
-    for (int i = 0; i < count; ++i) {
-      const Swing swing = at(x[i], y[i]).swing;
-      x[i] += swing.x;
-      y[i] += swing.y;
-    }
+    static const auto points = has_avx2() ? shimmer_unmap_avx2 : shimmer_unmap_points;
+    points({root_x_, root_y_, per_cell_, per_length_, nodes_.x.data(), nodes_.y.data()}, x, y, count);
   }
 
   // Solves q + swing(q) = p.
@@ -81,10 +86,11 @@ class LeavesAtMoment : public Displacement {
     const int column = static_cast<int>(cell_x), row = static_cast<int>(cell_y);
     Swing sum{0, 0}, slope_x{0, 0}, slope_y{0, 0};
     for (int j = 0; j < 3; ++j) {
-      const Swing* line = &nodes_[static_cast<std::size_t>((row + j - 1) & (side - 1)) * side];
+      const int line = ((row + j - 1) & (side - 1)) * side;
       Swing value{0, 0}, slope{0, 0};
       for (int i = 0; i < 3; ++i) {
-        const Swing node = line[(column + i - 1) & (side - 1)];
+        const int at = line + ((column + i - 1) & (side - 1));
+        const Swing node{nodes_.x[at], nodes_.y[at]};
         value.x += wx.w[i] * node.x;
         value.y += wx.w[i] * node.y;
         slope.x += wx.slope[i] * node.x;
@@ -107,7 +113,7 @@ class LeavesAtMoment : public Displacement {
   }
 
   float root_x_, root_y_, per_cell_, per_length_, longest_;
-  std::vector<Swing> nodes_;
+  Nodes nodes_;
 };
 
 }  // namespace
@@ -132,11 +138,11 @@ std::unique_ptr<const Displacement> Shimmer::at(const Moment& moment, double shi
   const auto swing = [&](double turn) {
     return static_cast<float>(longest / std::numbers::sqrt2 * std::cos(2 * std::numbers::pi * turn));
   };
-  std::vector<Swing> nodes(leaves_.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  Nodes nodes{std::vector<float>(leaves_.size()), std::vector<float>(leaves_.size())};
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const Leaf& leaf = leaves_[i];
     const double turn = turns(leaf.frequency), rest = turn - std::floor(turn);
-    nodes[i] = {swing(rest + leaf.phase_x), swing(rest + leaf.phase_y)};
+    nodes.x[i] = swing(rest + leaf.phase_x), nodes.y[i] = swing(rest + leaf.phase_y);
   }
   return std::make_unique<LeavesAtMoment>(armature_, static_cast<float>(cell), static_cast<float>(longest),
                                           std::move(nodes));

@@ -41,8 +41,8 @@ def key(extension, path: str, *points: tuple, index: int = 0):
     return next(c for c in keyed(extension) if (c.data_path, c.array_index) == (path, index))
 
 
-def keyed(extension) -> list:
-    data = bpy.context.scene.animation_data
+def keyed(extension, scene=None) -> list:
+    data = (scene or bpy.context.scene).animation_data
     return extension.versions.curves_of(data.action, data.action_slot) if data else []
 
 

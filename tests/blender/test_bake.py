@@ -304,6 +304,20 @@ def test_undo_after_a_bake_shows_what_lies_on_disk(extension, scene, worker, sta
     same(render(bpy.context.scene, 6, tmp_path), frames[6])
 
 
+def test_undo_after_a_bake_that_ended_later_keeps_its_frames(extension, scene, worker, state):
+    """The image of the frames came after the last step: Blender frees it, and keeps the tree, the same in both steps."""
+    worker("plain")
+    extension.bake.job.start(scene, scene.stillwater.pictures[0])
+    for speed in (9, 8, 7, 6):
+        scene.stillwater.pictures[0].wind.speed = speed
+        bpy.ops.ed.undo_push(message="wind")
+    until(extension, lambda: not extension.bake.job._jobs)
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.redo):
+        step()
+        assert state().id_data.nodes["Frames"].image in list(bpy.data.images)
+        assert state().there == "5-8" and len(state().id_data.links) == 4
+
+
 def test_undoing_the_bake_itself_ends_the_worker(extension, worker):
     worker("hang")
     bpy.ops.ed.undo_push(message="before")

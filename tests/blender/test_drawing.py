@@ -165,7 +165,7 @@ def test_without_an_active_layer_it_is_told(picture, layers):
 
 
 def test_without_a_plane_or_picture_the_button_is_grey(scene, picture):
-    with pytest.raises(RuntimeError, match="The picture has no plane in the scene; open its picture again"):
+    with pytest.raises(RuntimeError, match="The picture has no plane in the scene; make it anew with Set Up in Scene"):
         bpy.ops.stillwater.draw_stroke(role="sway_line")
     bpy.ops.stillwater.remove_picture()
     with pytest.raises(RuntimeError, match="The scene has no Stillwater picture yet"):
@@ -344,5 +344,5 @@ def test_strokes_that_can_t_be_read_stop_the_bake_with_a_sentence(scene, picture
     part = gp_layers.ensure(picture, "", HORIZON)
     draw(part, on_plane((0, 200), (900, 210)))
     picture.picture_size = 0, 0
-    with pytest.raises(RuntimeError, match="Lake: has no plane in the scene; open its picture again"):
+    with pytest.raises(RuntimeError, match="Lake: has no plane in the scene; make it anew with Set Up in Scene"):
         bpy.ops.stillwater.bake()

@@ -241,8 +241,8 @@ def test_solo_is_for_looking_and_never_for_bakes(extension, layers):
 
 
 POLLS = {
-    "add_layer": "Add a picture first",
-    "paste_layers": "Add a picture first",
+    "add_layer": "The scene has no Stillwater picture yet",
+    "paste_layers": "The scene has no Stillwater picture yet",
     "move_layer": "Select a layer first",
     "remove_layer": "Select a layer first",
     "duplicate_layer": "Select a layer first",
@@ -254,14 +254,14 @@ POLLS = {
     "add_waterline_point": "Select a layer with the motion Bob first",
     "remove_waterline_point": "Select a layer with the motion Bob first",
     "clear_waterline": "Select a layer with the motion Bob first",
-    "apply_preset": "Add a picture first",
-    "save_preset": "Add a picture first",
+    "apply_preset": "The scene has no Stillwater picture yet",
+    "save_preset": "The scene has no Stillwater picture yet",
 }
 
 
 @pytest.mark.parametrize("operator, sentence", POLLS.items())
 def test_what_is_greyed_out_says_why(extension, scene, operator, sentence):
-    if sentence != "Add a picture first":
+    if sentence != "The scene has no Stillwater picture yet":
         picture = extension.properties.arrange.add_picture(scene, "Lake")
         if sentence != "Select a layer first":
             extension.properties.arrange.add_layer(picture, "a")
@@ -276,7 +276,7 @@ def test_layers_of_a_linked_scene_are_left_alone(extension, layers, tmp_path):
         here.scenes = list(there.scenes)
     bpy.context.window.scene = here.scenes[0]
     for operator in POLLS:
-        with pytest.raises(RuntimeError, match="The scene belongs to another file"):
+        with pytest.raises(RuntimeError, match="This scene is linked"):
             getattr(bpy.ops.stillwater, operator)()
     assert order() == "a b c d"
 

@@ -4,7 +4,8 @@ import random
 
 import bpy
 import pytest
-from layered import fill, key, keyed, now, said
+from invariants import of_layers
+from layered import fill, key, now, said
 
 LAYERS = "stillwater.pictures[0].layers"
 STEPS = 9  # of 32 that Blender can undo
@@ -27,20 +28,6 @@ def steps(dice: random.Random) -> list[tuple]:
     return dice.sample(some, k=STEPS)
 
 
-def check(extension) -> None:
-    """Ids and names are unique, the active layer exists, every curve moves a layer that is there."""
-    picture = now()
-    assert len({layer.id for layer in picture.layers}) == len(picture.layers)
-    assert len({layer.name for layer in picture.layers}) == len(picture.layers)
-    assert picture.active_layer < max(1, len(picture.layers))
-    drivers = bpy.context.scene.animation_data.drivers
-    for curve in [*keyed(extension), *drivers]:
-        bpy.context.scene.path_resolve(curve.data_path)
-    for curve in drivers:
-        read = curve.driver.variables[0].targets[0].data_path
-        assert read == "" or read.endswith(".opacity") and bpy.context.scene.path_resolve(read) is not None
-
-
 @pytest.mark.parametrize("seed", range(50))
 def test_any_sequence_can_be_undone_and_done_again(extension, scene, picture, seed):
     dice = random.Random(seed)
@@ -59,7 +46,7 @@ def test_any_sequence_can_be_undone_and_done_again(extension, scene, picture, se
         call = getattr(bpy.ops.stillwater, operator)
         if not call.poll() or call("EXEC_DEFAULT", True, **options) != {"FINISHED"} or operator == "copy_layers":
             continue  # these push no step
-        check(extension)
+        of_layers(extension, now())
         seen.append(said(extension))
     for before in reversed(seen[:-1]):
         bpy.ops.ed.undo()
@@ -67,4 +54,4 @@ def test_any_sequence_can_be_undone_and_done_again(extension, scene, picture, se
     for after in seen[1:]:
         bpy.ops.ed.redo()
         assert said(extension) == after
-    check(extension)
+    of_layers(extension, now())

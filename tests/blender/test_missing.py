@@ -104,6 +104,20 @@ def test_what_is_missing_is_said_where_the_engine_would_refuse(extension, whole,
         stillwater.parse(said(extension))
 
 
+CIRCLE = ["Choose another layer to follow: that one follows this one"]
+
+
+@pytest.mark.parametrize("other, sentences", [("clouds", CIRCLE * 2),
+                                              ("boat", ["Choose other water: that one follows this layer", *CIRCLE])])
+def test_layers_that_move_with_each_other_are_told(extension, whole, other, sentences):
+    named("lake").follows.layer = other
+    if other == "clouds":
+        named("clouds").follows.layer, named("boat").motion.type = "lake", "still"
+    assert everything() == sentences
+    with pytest.raises(stillwater.RecipeError, match="circle"):
+        stillwater.parse(said(extension))
+
+
 def test_a_horizon_that_is_turned_on_lies_in_the_middle_until_it_is_placed(picture):
     view, picture.picture_size = picture.view, (640, 400)
     view.use_horizon = True

@@ -40,5 +40,5 @@ def test_the_plane_may_be_moved_turned_and_scaled(picture, plane):
 
 
 def test_without_a_plane_it_says_so(picture):
-    with pytest.raises(ValueError, match="Lake: has no plane in the scene; open its picture again"):
+    with pytest.raises(ValueError, match="Lake: has no plane in the scene; make it anew with Set Up in Scene"):
         pixels_to_world(picture)

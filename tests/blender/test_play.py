@@ -93,6 +93,8 @@ def test_keys_count_by_their_integral_as_in_a_bake(extension, scene, shown, tmp_
         shown.layers[0].motion.drift.velocity = (speed, 0)
         scene.keyframe_insert("stillwater.pictures[0].layers[0].motion.drift.velocity", frame=frame)
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
+    scene.frame_set(7)
+    stage.wait(extension)  # what drifts is made endless
     for frame in (8, 6):
         scene.frame_set(frame)
         np.testing.assert_allclose(plane_pixels(shown), baked(tmp_path, frame), atol=1e-6)
@@ -228,6 +230,19 @@ def test_undo_and_redo_leave_the_right_frame(extension, scene, shown):
         picture = bpy.context.scene.stillwater.pictures[0]
         assert not shows_original(picture)
         np.testing.assert_array_equal(plane_pixels(picture), wanted)
+
+
+def test_undo_forgets_an_image_that_came_after_the_last_step(extension, scene, live):
+    """Blender frees it, and keeps the plane, which is the same in both steps."""
+    for speed in (9, 8, 7, 6):
+        live.wind.speed = speed
+        bpy.ops.ed.undo_push(message="slower")
+    scene.frame_set(6)
+    stage.wait(extension)
+    assert not shows_original(live)
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.undo):
+        step()
+        assert bpy.context.scene.stillwater.pictures[0].plane.data in list(bpy.data.images)
 
 
 def test_an_image_that_was_removed_is_made_again(extension, scene, shown):

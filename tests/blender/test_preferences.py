@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
+import stage
 from panels import Recorder
 from pictures import paint
 from pixels import PACKAGE
@@ -44,6 +45,38 @@ def test_a_bake_keeps_its_layers_in_the_cache_folder(chosen, scene, tmp_path):
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
     assert list((tmp_path / "cache").glob("*/meta.json"))
     assert not (tmp_path / "stillwater" / "lake" / ".stillwater-cache").exists()
+
+
+def test_live_pictures_have_the_cache_of_the_bake(extension, chosen, scene, tmp_path, monkeypatch):
+    """Cut once, found by both; freed from both."""
+    picture = stage.set_up(scene, tmp_path)
+    cache = tmp_path / "cache"
+    chosen.cache_folder = str(cache)
+    assert bpy.ops.stillwater.bake() == {"FINISHED"}
+    (cut,) = cache.glob("*/meta.json")
+    when = cut.with_name("colour0.npy").stat().st_mtime_ns
+    monkeypatch.setattr(extension.play.show, "seen", True)
+    scene.frame_set(5)
+    stage.wait(extension)
+    scene.frame_set(6)
+    assert picture.plane.data != picture.image
+    assert len(list(cache.glob("*/meta.json"))) == 2 and cut.with_name("colour0.npy").stat().st_mtime_ns == when
+    assert not list((tmp_path / "stillwater").rglob(".stillwater-cache"))
+    assert bpy.ops.stillwater.free_bake() == {"FINISHED"}
+    assert not list(cache.glob("*/meta.json")) and not list((tmp_path / "stillwater").rglob(".stillwater-cache"))
+    extension.play.server.end()
+
+
+def test_another_cache_folder_counts_at_once_for_live_pictures(extension, chosen, scene, tmp_path, monkeypatch):
+    monkeypatch.setattr(extension.play.show, "seen", True)
+    picture = stage.set_up(scene, tmp_path)
+    for name, size in (("first", 100), ("second", 200)):
+        chosen.cache_folder, chosen.preview_size = str(tmp_path / name), size
+        scene.frame_set(scene.frame_current + 1)
+        stage.wait(extension)
+        scene.frame_set(scene.frame_current + 1)
+        assert picture.plane.data != picture.image and list((tmp_path / name).glob("*/meta.json"))
+    extension.play.server.end()
 
 
 @pytest.fixture

@@ -234,7 +234,7 @@ def test_a_camera_that_looks_along_the_plane_is_told(scene, picture, part):
 def test_without_a_plane_it_is_told(scene, picture, part):
     draw(part, on_plane(*PIXELS))
     picture.plane = None
-    with pytest.raises(ValueError, match="Lake: has no plane in the scene; open its picture again"):
+    with pytest.raises(ValueError, match="Lake: has no plane in the scene; make it anew with Set Up in Scene"):
         read.strokes(scene, picture, "", HORIZON)
 
 

@@ -31,7 +31,7 @@ def test_frames_that_are_right_are_kept_and_others_made_anew(painted):
 
 def test_the_engine_s_sentence_reaches_the_artist(painted):
     bpy.context.scene.stillwater.pictures[0].layers[0].matte.form = "none"
-    with pytest.raises(RuntimeError, match=r"layers\[0\].matte: missing \(only the last layer needs none\)"):
+    with pytest.raises(RuntimeError, match=r"tree, matte: missing \(only the last layer needs none\)"):
         bpy.ops.stillwater.bake()
 
 

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
+import numpy as np
 import pytest
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
@@ -72,6 +73,17 @@ assert recipe.write.frames_to_sample(-3, 0) == range(-3, 3)
 """
     done = subprocess.run([sys.executable, "-I", "-c", program], capture_output=True, text=True, timeout=30)
     assert done.returncode == 0, done.stderr
+
+
+def test_many_numbers_are_written_as_each_alone():
+    numbers = load(ADDON / "recipe/numbers.py")
+    noise = np.random.default_rng(1)
+    odd = [0, -0.0, 0.6, 1e5, 1e6]
+    values = [noise.uniform(-10, 10, 3000), 10 ** noise.uniform(-30, 30, 1000), np.arange(999) / 8, odd]
+    values = np.concatenate(values).astype(np.float32).astype(float)
+    for subtype in ("NONE", "ANGLE"):
+        alone = [numbers.plain(value, subtype) for value in values.tolist()]
+        assert list(map(repr, numbers.plain_all(values, subtype))) == list(map(repr, alone))
 
 
 def test_only_one_file_imports_the_engine():

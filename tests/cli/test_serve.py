@@ -20,8 +20,8 @@ FOLDER = ".stillwater-cache"
 class Server:
     """A process of `stillwater serve`, asked and heard in lines of JSON."""
 
-    def __init__(self):
-        line = [sys.executable, "-m", "stillwater", "serve"]
+    def __init__(self, *options):
+        line = [sys.executable, "-m", "stillwater", "serve", *options]
         pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
         self.process = subprocess.Popen(line, **pipes)
         self._rest = b""
@@ -95,6 +95,29 @@ def test_the_recipe_may_lie_elsewhere(server, scene, tmp_path):
     server.ask(prepare(1, path, folder=str(tmp_path)))
     done, _ = server.hear("done")
     assert (tmp_path / FOLDER / done["key"]).is_dir()
+
+
+def test_the_cache_may_lie_elsewhere_and_has_a_limit(scene, recipe, tmp_path):
+    """The folder and the limit of `render`, in the same words."""
+    path, cache = scene(), tmp_path / "one for all"
+    server = Server("--cache", str(cache), "--cache-limit", "0.001")
+    try:
+        server.ask(prepare(1, path))
+        done, _ = server.hear("done")
+        live = Live()
+        live.learn(done["files"])
+        assert live.take(recipe, tmp_path, cache=cache) and not Live().take(recipe, tmp_path)
+        assert not (tmp_path / FOLDER).exists()
+        old = cache / "old"
+        old.mkdir()
+        (old / "meta.json").write_text("{}")
+        (old / "a.npy").write_bytes(bytes(2_000_000))
+        os.utime(old / "meta.json", (0, 0))
+        server.ask(prepare(2, path, longest=30))
+        server.hear("done")
+        assert not old.exists()
+    finally:
+        server.close()
 
 
 WRONG = [
@@ -191,5 +214,5 @@ def test_the_prepared_picture_is_not_read_twice(server, large, recipe):
     server.ask(prepare(2, large, longest=100))
     _, before = server.hear("done")
     whats = [answer["what"] for answer in before if answer["event"] == "preparing"]
-    assert whats == ["making the layers small", "done"]
+    assert whats == ["making the layers small", "making clouds endless", "done"]
     assert np.asarray(Image.open(large.parent / "picture.png")).shape == (1440, 1920, 3)

@@ -103,3 +103,16 @@ def test_what_no_field_can_be_is_refused(given, sentence):
     with pytest.raises(stillwater.BadInput) as refused:
         engine.GustField(*given)
     assert str(refused.value) == sentence
+
+
+@pytest.mark.parametrize("loop", [0, 240])
+def test_places_in_a_line_have_the_factors_of_each_alone(loop):
+    field = engine.GustField(0.2, 5, PICTURE)
+    wind = engine.Wind(gusts=0.7, travel=(13, -4))
+    moment = engine.Moment(frame=37, fps=24, loop_frames=loop, wind=wind, loop_travel=(40, 10) if loop else (0, 0))
+    (x, y), (right, down), count = (-30, 410), (24, -3.5), 60
+    alone = [field.factor((x + i * right, y + i * down), moment) for i in range(count)]
+    np.testing.assert_allclose(field.factors((x, y), (right, down), count, moment), alone, rtol=1e-6, atol=1e-7)
+    assert np.std(alone) > 0.2
+    calm = engine.Moment(frame=37, fps=24, wind=engine.Wind(gusts=0))
+    assert field.factors((0, 0), (1, 1), 3, calm) == [1, 1, 1]

@@ -7,7 +7,7 @@ from stillwater import _stillwater as engine
 from stillwater.render.cache import FOLDER, Cache
 from stillwater.render.events import Preparing, Ready
 from stillwater.render.loop import Job, Order, render
-from stillwater.render.preview import prepare, reduced
+from stillwater.render.preview import forget, prepare, reduced
 from stillwater.render.renderer import Renderer
 
 
@@ -185,9 +185,64 @@ def test_what_a_render_cut_is_not_cut_again(scene):
     path = scene()
     list(render(load(path), Order(frames=(1, 1))))
     events = list(prepare(load(path), 960, Cache(path.parent / FOLDER)))
-    assert [event.what for event in events if isinstance(event, Preparing)] == ["making the layers small", "done"]
+    assert [event.what for event in events if isinstance(event, Preparing)] == [
+        "making the layers small",
+        "making clouds endless",
+        "done",
+    ]
     events = list(prepare(load(path), 960, Cache(path.parent / FOLDER)))
     assert [event.what for event in events if isinstance(event, Preparing)] == ["done"]
+
+
+def test_a_layer_that_begins_to_drift_is_made_endless_elsewhere(live, recipe, scene, tmp_path, monkeypatch):
+    """make_cyclic takes long: not where frames are shown. Which way it drifts counts, how fast does not."""
+
+    def drift(x, y):
+        return lambda r: r["layers"][2].update(motion={"type": "drift", "velocity": [x, y]})
+
+    before = live.frame(3).copy()
+    drift(1, 0)(recipe)
+    assert not live.take(recipe, tmp_path)
+    np.testing.assert_array_equal(live.frame(3), before)
+    live.learn(prepared(scene(drift(1, 0))).files)
+    assert live.take(recipe, tmp_path) and np.abs(live.frame(3) - before).max() > 1e-2
+    drift(5, 0)(recipe)
+    assert live.take(recipe, tmp_path)
+    drift(5, 1)(recipe)
+    assert not live.take(recipe, tmp_path)
+
+
+@pytest.mark.parametrize("along", [(False, False), (True, False), (False, True), (True, True)])
+def test_plates_from_what_was_made_before_are_the_same(along):
+    noise = np.random.default_rng(3)
+    pixels = noise.uniform(0, 1, (30, 40, 1)).astype(np.float32) * noise.uniform(0, 1, (30, 40, 4)).astype(np.float32)
+    clouds, size = engine.LayerImage(pixels, (20, 10, 40, 30)), (80, 50)
+    made = engine.make_endless(clouds, size, 1.0, along)
+    moment = engine.Moment(frame=30, fps=24, loop_frames=40)
+    frames = []
+    for before in ([], [made]):
+        plates = engine.make_plates(clouds, None, size, 1.0, along, before)
+        layer = engine.Layer(plates, engine.Drift(), endless=along)
+        renderer = engine.FrameRenderer(size, 1.0, engine.View(), engine.Wind(), [layer])
+        way = tuple(7.0 * axis for axis in along)
+        state = engine.LayerState(1.0, engine.Drift(offset=way, loop_offset=tuple(2 * x for x in way)))
+        frames.append(renderer.render(moment, moment, [state], [state]).combined)
+    np.testing.assert_array_equal(*frames)
+    assert frames[0][..., 3].max() > 0.5
+    other = engine.LayerImage(np.ascontiguousarray(pixels[:29, :39]), (20, 10, 39, 29))
+    if along != (True, True):  # then both lie on the whole picture
+        with pytest.raises(ValueError, match="endless: made for another layer, scale or way of drifting"):
+            engine.make_plates(other, None, size, 1.0, along, [made])
+
+
+def test_layers_are_forgotten_at_every_size_and_no_others(scene):
+    path, other = scene(), scene(lambda recipe: recipe["layers"][2].update(feather=3), "other.json")
+    for longest in (960, 24):
+        prepared(path, longest)
+    kept = prepared(other).key
+    cache = Cache(path.parent / FOLDER)
+    forget(load(path), cache)
+    assert cache.find(kept) and len(list(cache.folder.glob("*/meta.json"))) == 3
 
 
 def test_plates_of_something_else_are_refused(scene, live):

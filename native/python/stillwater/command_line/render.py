@@ -5,6 +5,8 @@ import re
 import sys
 from pathlib import Path
 
+from . import cache_options
+
 
 def add_to(commands) -> None:
     parser = commands.add_parser("render", help="render a recipe's frames")
@@ -13,8 +15,7 @@ def add_to(commands) -> None:
     parser.add_argument("--output", type=Path, metavar="DIR", help="folder of the frames, instead of the recipe's")
     parser.add_argument("--scale", type=_scale, metavar="S", help="output pixels for a picture pixel, instead of the recipe's")
     parser.add_argument("--threads", type=_threads, default=0, metavar="N", help="0: one a core")
-    parser.add_argument("--cache", type=Path, metavar="DIR", help="folder of the cache, instead of one beside the recipe")
-    parser.add_argument("--cache-limit", type=_gigabytes, metavar="GB", help="how large the cache may grow (default 4)")
+    cache_options.add_to(parser)
     parser.add_argument("--movie", type=Path, metavar="OUT.mp4", help="a film of the frames too (needs ffmpeg)")
     parser.add_argument("--progress", choices=("json", "bar", "none"), help="default: bar in a terminal, else none")
     parser.add_argument("--fresh", action="store_true", help="render anew what stands already")
@@ -63,17 +64,6 @@ def _scale(text: str) -> float:
     if not 0.001 <= scale <= 16:
         raise argparse.ArgumentTypeError(f"{text} is not between 0.001 and 16")
     return scale
-
-
-def _gigabytes(text: str) -> int:
-    """A size in GB as bytes."""
-    try:
-        size = float(text)
-    except ValueError:
-        size = 0
-    if not 0.001 <= size <= 1e6:
-        raise argparse.ArgumentTypeError(f"{text} is not between 0.001 and 1000000")
-    return round(size * 1e9)
 
 
 def _threads(text: str) -> int:

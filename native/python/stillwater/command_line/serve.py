@@ -18,6 +18,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from ..render.events import Dropped, Error, Event
+from . import cache_options
 
 
 class Request(Struct, tag_field="do", tag=str.lower, forbid_unknown_fields=True):
@@ -29,7 +30,8 @@ class Request(Struct, tag_field="do", tag=str.lower, forbid_unknown_fields=True)
 class Prepare(Request):
     """Layers for frames whose longer side is `longest` pixels. What they give lies in the cache.
 
-    `recipe`: its file; `folder`: where its relative paths start and its cache lies, where not beside the file.
+    `recipe`: its file; `folder`: where its relative paths start, where not beside the file. The cache lies there too,
+    unless `--cache` says where.
     """
 
     recipe: Annotated[str, Meta(min_length=1)]
@@ -48,6 +50,7 @@ class Stopped(Exception):
 def add_to(commands) -> None:
     parser = commands.add_parser("serve", help="prepare what live pictures need, asked by JSON lines on standard input")
     parser.add_argument("--threads", type=int, default=0, metavar="N", help="0: one a core")
+    cache_options.add_to(parser)
     parser.set_defaults(run=_run, file="serve")
 
 
@@ -57,7 +60,7 @@ def _run(given) -> None:
     engine.install_signal_handler()
     engine.listen_to_standard_input()
     engine.set_threads(given.threads)
-    server = Server(engine.next_line, _say)
+    server = Server(engine.next_line, _say, given.cache and given.cache.absolute(), given.cache_limit)
     while True:
         server.step()
 
@@ -69,10 +72,13 @@ def _say(identifier: int | None, event: Event) -> None:
 
 
 class Server:
-    """Takes requests from `next_line(seconds)` and answers with `say(id, event)`."""
+    """Takes requests from `next_line(seconds)` and answers with `say(id, event)`.
 
-    def __init__(self, next_line, say):
-        self._next_line, self._say = next_line, say
+    `cache`: its folder, None = one in each recipe's folder; `limit`: bytes that it may hold, None = the usual.
+    """
+
+    def __init__(self, next_line, say, cache: Path | None = None, limit: int | None = None):
+        self._next_line, self._say, self._cache, self._limit = next_line, say, cache, limit
         self._waiting: list[Prepare] = []
         self._at_work: Prepare | None = None
         self._stopped = False
@@ -118,7 +124,7 @@ class Server:
 
     def _work(self, request: Prepare) -> None:
         from ..recipe import parse
-        from ..render.cache import FOLDER, Cache
+        from ..render.cache import FOLDER, LIMIT, Cache
         from ..render.preview import prepare
         from .show import sentence_of
 
@@ -126,7 +132,8 @@ class Server:
         try:
             path = Path(request.recipe)
             document = parse(path.read_bytes(), Path(request.folder or path.parent).resolve())
-            for event in prepare(document, request.longest, Cache(document.folder / FOLDER), self._beat):
+            cache = Cache(self._cache or document.folder / FOLDER, self._limit or LIMIT)
+            for event in prepare(document, request.longest, cache, self._beat):
                 self._beat()
                 self._say(request.id, event)
         except Stopped:

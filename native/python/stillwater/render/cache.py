@@ -126,6 +126,12 @@ class Cache:
             with contextlib.suppress(OSError):
                 aside.unlink()
 
+    def forget(self, key: str) -> None:
+        """Removes a preparation and those made from it (their fact "of"). Throws OSError."""
+        for place in self._places():
+            if place.name == key or _facts(place).get("of") == key:
+                shutil.rmtree(place)
+
     def size(self) -> int:
         """Bytes of all preparations."""
         return sum(_size(place) for place in self._places())
@@ -167,6 +173,13 @@ def _write_array(path: Path, array: np.ndarray) -> None:
     with open(path, "wb") as file:
         np.lib.format.write_array_header_1_0(file, np.lib.format.header_data_from_array_1_0(array))
         file.write(array.data)
+
+
+def _facts(place: Path) -> dict:
+    try:
+        return json.loads((place / "meta.json").read_text())
+    except (OSError, ValueError):  # another worker removed it, or it is none
+        return {}
 
 
 def _size(place: Path) -> int:

@@ -22,7 +22,7 @@ ENGINES = {
     "wind": 1,
     "still": 1,
     "sway": 1,
-    "ripple": 1,
+    "ripple": 2,
     "bob": 1,
     "drift": 2,
 }

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _stillwater as engine
-from ..recipe import Document, parse
-from ..recipe.stochastic import Drift
+from ..recipe import parse
 from . import preview
 from .cache import FOLDER, Cache, Prepared
 from .prepare import check_view, layer_images
@@ -46,13 +45,20 @@ class Live:
         if self._cache:
             self._cache.learn(self._learnt)
 
-    def take(self, recipe: Mapping, folder: str | os.PathLike[str], longest: int = 960) -> bool:
+    def take(
+        self,
+        recipe: Mapping,
+        folder: str | os.PathLike[str],
+        longest: int = 960,
+        cache: str | os.PathLike[str] | None = None,
+    ) -> bool:
         """Takes a recipe, a new one or one that has changed. Frames are those of the picture made small.
 
         Args:
             recipe: as JSON has it.
-            folder: where its relative paths start; the cache is beside it.
+            folder: where its relative paths start.
             longest: of the frames' sides, pixels; a smaller picture keeps its size.
+            cache: folder of the cache, the one that `serve` and bakes have; None = in `folder`.
 
         Returns:
             True where frames can be had: changed numbers cost a rebuild of the motions. False where something must
@@ -62,19 +68,26 @@ class Live:
             RecipeError: with all that is wrong; frames are those of the recipe before.
         """
         document = parse(recipe, folder)
-        place = Path(folder) / FOLDER
+        place = Path(cache) if cache else Path(folder) / FOLDER
         if self._cache is None or self._cache.folder != place:
             self._cache = Cache(place)
             self._cache.learn(self._learnt)
-        found = preview.find(document, self._cache, longest)
-        if found is None:
+        key = preview.key_of(document, self._cache, longest)
+        if key is None:
             return False
-        key, layers = found
-        small = Document(preview.reduced(document.recipe, layers.facts["scale"]), document.folder)
-        check_view(small.recipe, layers.facts["colour"])
-        if key != self._key:
-            self._key, self._preview, self._plates = key, layers, {}
-        self._build(small)
+        same = key == self._key
+        layers = self._preview if same else self._cache.find(key)
+        if layers is None:
+            return False
+        small = preview.reduced(document.recipe, layers.facts["scale"])
+        check_view(small, layers.facts["colour"])
+        timeline = Timeline(small)
+        plates = self._plates_for(key, layers, preview.ways_of(small, timeline.endless), self._plates if same else {})
+        if plates is None:
+            return False
+        size, has_alpha = tuple(layers.facts["size"]), layers.facts["has_alpha"]
+        self._renderer = frame_renderer(timeline, list(plates.values()), size, 1.0, has_alpha=has_alpha)
+        self._key, self._preview, self._plates, self._timeline = key, layers, plates, timeline
         return True
 
     @property
@@ -169,26 +182,18 @@ class Live:
             raise engine.BadInput(f'layer: "{layer}" is not one of {", ".join(self.layers) or "none"}')
         return self.layers.index(layer)
 
-    def _build(self, document: Document) -> None:
-        timeline = Timeline(document.recipe)
-        facts = self._preview.facts
-        size, has_alpha = tuple(facts["size"]), facts["has_alpha"]
-        colour = layer_images(self._preview, "colour")
-        alpha = layer_images(self._preview, "alpha") if has_alpha else [None] * len(colour)
-        wanted = [(i, axes if drifts(document, i) else None) for i, axes in enumerate(timeline.endless)]
-        self._plates = {
-            way: self._plates.get(way) or engine.make_plates(colour[way[0]], alpha[way[0]], size, 1.0, way[1])
-            for way in wanted
-        }
-        plates = [self._plates[way] for way in wanted]
-        self._renderer = frame_renderer(timeline, plates, size, 1.0, has_alpha=has_alpha)
-        self._timeline = timeline
-
-
-def drifts(document: Document, index: int) -> bool:
-    """Whether a layer drifts, or follows one that does."""
-    layers = document.recipe.layers
-    layer = layers[index]
-    if isinstance(layer.motion, Drift):
-        return True
-    return layer.follows is not None and drifts(document, [each.name for each in layers].index(layer.follows.layer))
+    def _plates_for(self, key: str, layers: Prepared, ways: list, made: dict) -> dict | None:
+        """Plates for each way, those that are there already taken over; None where a part is not prepared."""
+        parts = preview.PARTS if layers.facts["has_alpha"] else preview.PARTS[:1]
+        missing = [way for way in ways if way not in made]
+        endless = {way: self._cache.find(preview.endless_key(key, way)) for way in missing if way[1] is not None}
+        if None in endless.values():
+            return None
+        images = [layer_images(layers, part) for part in parts]
+        new = {}
+        for i, axes in missing:
+            colour, alpha = images[0][i], images[1][i] if len(images) > 1 else None
+            arrays = endless[i, axes].arrays if axes is not None else {}
+            before = [(arrays[f"{part}_pixels"], arrays[f"{part}_mean"]) for part in parts if f"{part}_mean" in arrays]
+            new[i, axes] = engine.make_plates(colour, alpha, tuple(layers.facts["size"]), 1.0, axes, before)
+        return {way: made.get(way) or new[way] for way in ways}

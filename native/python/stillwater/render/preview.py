@@ -1,6 +1,7 @@
 """The layers of a recipe at the size of a screen: a preparation, so that whoever shows frames makes none.
 
-`prepare` makes it, as slowly as it must; `find` looks whether it is there, and reads no file but the cache's.
+`prepare` makes it, as slowly as it must; whoever knows `key_of` and `endless_key` finds it, and reads no file but the
+cache's.
 """
 
 from collections.abc import Callable, Generator, Iterator
@@ -18,21 +19,39 @@ from .events import Event, Preparing, Ready, Warn
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
 from .prepare import Sources, cut, digests_of, filled_otherwise, layer_images
+from .resolve import Timeline
 
 PARTS = ("colour", "alpha")
 
 
-def find(document: Document, cache: Cache, longest: int) -> tuple[str, Prepared] | None:
-    """The key and the layers, where they are prepared for the files as they are now.
+Way = tuple[int, tuple[bool, bool] | None]  # a layer, and of one that drifts the axes along which it goes on for ever
+
+
+def key_of(document: Document, cache: Cache, longest: int) -> str | None:
+    """The key of the small layers for the files as they are now; None where nobody has read these yet.
 
     Throws RecipeError where a file is missing.
     """
     digests = digests_of(document, cache.known)
-    if not all(digests.values()):
-        return None
-    key = _key(stack_key(document.recipe, digests), longest)
-    prepared = cache.find(key)
-    return (key, prepared) if prepared else None
+    return _key(stack_key(document.recipe, digests), longest) if all(digests.values()) else None
+
+
+def endless_key(key: str, way: Way) -> str:
+    """The key of what a drifting layer of the preview with this key goes on with."""
+    return hashed({"endless": key, "way": way, "drift": ENGINES["drift"]})
+
+
+def ways_of(recipe: Recipe, endless: list[tuple[bool, bool]]) -> list[Way]:
+    """How each layer must be ready. `endless`: Timeline.endless."""
+    return [(i, axes if drifts(recipe, i) else None) for i, axes in enumerate(endless)]
+
+
+def drifts(recipe: Recipe, index: int) -> bool:
+    """Whether a layer drifts, or follows one that does."""
+    layer = recipe.layers[index]
+    if isinstance(layer.motion, Drift):
+        return True
+    return layer.follows is not None and drifts(recipe, [each.name for each in recipe.layers].index(layer.follows.layer))
 
 
 def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lambda: None) -> Iterator[Event]:
@@ -54,12 +73,19 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
             if cache.find(key) is None:
                 stack = yield from _stack(document, cache, sources, still_there)
                 yield Preparing(0.9, "making the layers small")
-                cache.store(key, _reduced(stack, sources.size, longest, still_there))
+                small = _reduced(stack, sources.size, longest, still_there)
+                cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
+    yield from _make_endless(document, cache, key, sources.key, beat)
     cache.keep_digests()
     if cache.trouble:
         raise Failed(cache.trouble)
     yield Preparing(1, "done")
     yield Ready(key, {str(path.resolve()): _file(path, digest) for path, digest in _located(document, sources)})
+
+
+def forget(document: Document, cache: Cache) -> None:
+    """Removes the layers of a recipe as it is now, at every size. Throws RecipeError, OSError."""
+    cache.forget(Sources(document, cache).key)
 
 
 def _key(stack: str, longest: int) -> str:
@@ -88,6 +114,23 @@ def _stack(document: Document, cache: Cache, sources: Sources, beat: Callable) -
             stack = yield from cut(images, document.recipe, beat)
             stack = cache.store(sources.key, stack)
     return stack
+
+
+def _make_endless(document: Document, cache: Cache, key: str, stack: str, beat: Callable) -> Iterator[Event]:
+    """What the layers that drift go on with."""
+    for way in ways_of(document.recipe, Timeline(document.recipe).endless):
+        place = endless_key(key, way)
+        if way[1] is None or cache.find(place) is not None or (small := cache.find(key)) is None:
+            continue
+        yield Preparing(0.95, f"making {document.recipe.layers[way[0]].name} endless")
+        beat()
+        arrays = {}
+        for part in PARTS if small.facts["has_alpha"] else PARTS[:1]:
+            image = layer_images(small, part)[way[0]]
+            if min(image.box[2:]) > 0:
+                made = engine.make_endless(image, tuple(small.facts["size"]), 1.0, way[1])
+                arrays |= {f"{part}_pixels": made[0], f"{part}_mean": made[1]}
+        cache.store(place, Prepared(arrays, {"of": stack}))
 
 
 def _reduced(stack: Prepared, size: tuple[int, int], longest: int, beat: Callable) -> Prepared:

@@ -61,8 +61,8 @@ def standing(
 ) -> Standing:
     """Looks a recipe's frames up without opening its pictures: as fast as their files' hashes are known.
 
-    `cache`: one of the recipe's folder, which remembers them. Throws RecipeError and Refused with what is wrong with the
-    recipe or its files.
+    `cache`: the one of its bakes, which remembers them; None = in the recipe's folder. Throws RecipeError and Refused
+    with what is wrong with the recipe or its files.
     """
     recipe = document.recipe
     first, last = frame_range(recipe, order)
