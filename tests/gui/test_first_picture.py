@@ -215,7 +215,7 @@ def test_the_compositor_shows_the_node_and_its_picture(window):
     yield from window.key("HOME", at=window.box("NODE_EDITOR").middle)
     yield from window.screenshot("16-compositor")
     nodes = window.box("NODE_EDITOR")
-    yield from window.cut_out("node", Box(nodes.middle[0] - 270, nodes.y + 120, 830, 300), 0.6)
+    yield from window.cut_out("node", Box(nodes.middle[0] - 510, nodes.y + 110, 830, 320), 0.6)
 
 
 def test_the_file_is_saved_with_its_frames_beside_it(window):
