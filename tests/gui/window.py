@@ -247,11 +247,10 @@ class Window:
         yield from self.key("RET")  # what it made of the path stands in the field for the name, which takes letters now
         yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
 
-    def save_file(self, path: Path, named: str, button: str):
-        """Types folder and name of a file into the open file browser, which proposes the name `named`; saves."""
+    def save_file(self, path: Path, named: str):
+        """Types folder and name of a file into the open file browser, which proposes the name `named`; Enter saves."""
         yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path.parent))
         yield from self.fill(named, path.name, self.box("FILE_BROWSER", "EXECUTE"))
-        yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
 
     def _send(self, kind: str, value: str, **more):
         window = self._window
