@@ -1,7 +1,6 @@
 """A new user's first minutes: from an empty Blender to a tree that sways in the compositor, by mouse and keys alone."""
 
 import json
-import tempfile
 from pathlib import Path
 
 import bpy
@@ -216,59 +215,3 @@ def test_the_compositor_shows_the_node_and_its_picture(window):
     yield from window.screenshot("16-compositor")
     nodes = window.box("NODE_EDITOR")
     yield from window.cut_out("node", Box(nodes.middle[0] - 510, nodes.y + 110, 830, 320), 0.6)
-
-
-def test_the_file_is_saved_with_its_frames_beside_it(window):
-    path = Path(tempfile.mkdtemp()) / "meadow.blend"
-    yield from window.key("S", at=window.box("NODE_EDITOR").middle, ctrl=True)
-    yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
-    yield from window.screenshot("17-save")
-    yield from window.save_file(path, "Untitled.blend")
-    yield from window.until(path.is_file, 20, "no file")
-    assert state().folder.startswith("//stillwater"), state().folder
-    assert len(list((path.parent / "stillwater").rglob("*.exr"))) >= 24
-
-
-def test_undo_goes_back_to_the_start_step_by_step(window):
-    yield from window.click("Layout")
-    steps = 0
-    while picture() is not None:
-        layers = len(picture().layers)
-        yield from window.key("Z", at=window.box("VIEW_3D").middle, ctrl=True)
-        steps += 1
-        assert steps < 40, "the picture never goes"
-        assert picture() is None or len(picture().layers) in (layers, layers - 1)
-    assert not [thing for thing in bpy.data.objects if thing.type in ("EMPTY", "GREASEPENCIL")]
-    assert bpy.context.scene.view_settings.view_transform == "AgX"
-    yield from window.see("Open Picture", window.box("VIEW_3D", "UI"))
-    yield from window.screenshot("18-undone")
-
-
-def test_redo_brings_all_of_it_again(window):
-    steps = 0
-    while bpy.ops.ed.redo.poll():
-        yield from window.key("Z", at=window.box("VIEW_3D").middle, ctrl=True, shift=True)
-        steps += 1
-        assert steps < 40, "it never ends"
-    assert [layer.name for layer in picture().layers] == ["Tree", "Background"]
-    assert picture().plane.visible_get() and picture().layers[0].motion.sway.amount == 2
-    assert bpy.context.scene.frame_end == 24 and bpy.context.mode == "OBJECT"
-    yield from window.until(lambda: picture().plane.data != picture().image, 60, "it is not live")
-    yield from window.screenshot("19-redone")
-
-
-def test_a_lake_is_opened_beside_it_from_its_recipe(window):
-    sidebar = window.box("VIEW_3D", "UI")
-    yield from window.scroll_to("Stillwater", sidebar)
-    title = yield from window.see("Stillwater", sidebar)
-    row = [(x, title[1] - 30) for x in range(right_end(sidebar), sidebar.x, -8)]
-    yield from window.point_at("stillwater.load_recipe", row)
-    yield from window.press()
-    yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
-    yield from window.open_file(SAMPLE.parent / "lake" / "recipe.json", "Open Recipe")
-    yield from window.until(lambda: len(bpy.context.scene.stillwater.pictures) == 2, 30, "no second picture")
-    yield from window.scroll_to("water", window.box("VIEW_3D", "UI"))
-    yield from window.click("water", window.box("VIEW_3D", "UI"))
-    yield from window.until(lambda: picture().plane.data != picture().image, 60, "it is not live")
-    yield from window.screenshot("20-lake")
-    yield from window.cut_out("water", window.box("VIEW_3D"), 0.6)

@@ -247,11 +247,6 @@ class Window:
         yield from self.key("RET")  # what it made of the path stands in the field for the name, which takes letters now
         yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
 
-    def save_file(self, path: Path, named: str):
-        """Types folder and name of a file into the open file browser, which proposes the name `named`; Enter saves."""
-        yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path.parent))
-        yield from self.fill(named, path.name, self.box("FILE_BROWSER", "EXECUTE"))
-
     def _send(self, kind: str, value: str, **more):
         window = self._window
         window.event_simulate(kind, value, x=self._mouse[0] - window.x, y=self._mouse[1] - window.y, **more)
