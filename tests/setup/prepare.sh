@@ -40,18 +40,20 @@ prepare_engine() {
   venv "$build/venv" $wanted || return 1
   local state
   state="$(state_of native CMakeLists.txt)"
-  once engine "$state" || return 0
-  echo "building the engine"
-  mkdir -p "$build/wheels"
-  rm -f "$build"/wheels/stillwater-*.whl
-  "$build/venv/bin/python" -m pip wheel "$repository/native" --quiet --disable-pip-version-check \
-    --no-build-isolation --no-deps --wheel-dir "$build/wheels" \
-    --config-settings=build-dir="$build/engine" --config-settings=cmake.define.STILLWATER_WERROR="${CI:+ON}" ||
-    return 1
-  [ "${1:-}" = wheel ] ||
-    "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
-      "$build"/wheels/stillwater-*.whl || return 1
-  done_once engine "$state"
+  if once engine "$state"; then
+    echo "building the engine"
+    mkdir -p "$build/wheels"
+    rm -f "$build"/wheels/stillwater-*.whl
+    "$build/venv/bin/python" -m pip wheel "$repository/native" --quiet --disable-pip-version-check \
+      --no-build-isolation --no-deps --wheel-dir "$build/wheels" \
+      --config-settings=build-dir="$build/engine" --config-settings=cmake.define.STILLWATER_WERROR="${CI:+ON}" ||
+      return 1
+    done_once engine "$state"
+  fi
+  [ "${1:-}" = wheel ] || ! once engine-installed "$state" && return 0
+  "$build/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall \
+    "$build"/wheels/stillwater-*.whl || return 1
+  done_once engine-installed "$state"
 }
 
 # Blender as a Python package: the version that fits this Python, in an environment without the engine, so that
