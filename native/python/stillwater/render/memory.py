@@ -15,7 +15,7 @@ from ..recipe.mattes import FileFill
 PROCESS = 170e6  # Python and the engine's libraries
 RGBA, PLANE = 16, 4  # bytes a pixel
 LEFT = RGBA + 3 * PLANE  # what is left of the picture, what hides it, what is solid, the matte at work
-AT_WORK = 7 * RGBA  # a layer that is being cut: its colour, the one behind, and the pyramids they come from
+AT_WORK = 6 * RGBA  # a layer that is being cut: its colour, the one behind, and the pyramids they come from
 FRAME = 28  # picture, flow, matte
 WRITTEN, WRITTEN_AT_ONCE = 30, 64 << 20  # what is written of them; bytes of it that are held
 TRIED_OUT = 128  # pixels
