@@ -132,9 +132,14 @@ def show(tree) -> list[int]:
 def _show_at_rest(tree) -> None:
     still = tree.nodes.get("Picture")
     if still is not None and still.image is not None:
-        output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+        output = _output(tree)
         for part, socket in AT_REST:
             tree.links.new(still.outputs[part], output.inputs[socket])
+
+
+def _output(tree):
+    """The node at which the group's outputs are."""
+    return next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
 
 
 def _unlink(tree) -> None:
@@ -229,7 +234,7 @@ def _can_be_relative(path: Path) -> bool:
 
 def _link(tree, source, layer: str, pairs: list[tuple[str, str]]) -> None:
     """Makes the group give passes of `layer`; of frames that do not hold it, nothing."""
-    output = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+    output = _output(tree)
     try:
         source.layer = layer
     except TypeError:  # baked before layers were asked for
