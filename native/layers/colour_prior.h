@@ -10,7 +10,7 @@ struct ColourPriorOptions {
   double misfit = 4 / 255.;  ///< colour; what a mix lacks of its pixel: confidence falls by e
   double separation = 0.2;   ///< colour; foreground and background nearer to each other than this say less
   double roughness = 1e-3;   ///< alpha squared; what no affine function of colour explains of alpha nearby: falls by e
-  double reach = 64;         ///< px; from known pixels of both kinds: fades out, and is gone at twice of it
+  double reach = 256;        ///< px; from known pixels of both kinds: fades out, and is gone at twice of it
   ColourSampleOptions samples = {};
 };
 

@@ -53,7 +53,8 @@ class Search {
   Search(const Rgba& picture, const Trimap& trimap, const ColourSampleOptions& options)
       : picture_(picture), trimap_(trimap), options_(options), fronts_(border_samples(picture, trimap, known::foreground)),
         backs_(border_samples(picture, trimap, known::background)), far_from_front_(distance_from(trimap, known::foreground)),
-        far_from_back_(distance_from(trimap, known::background)), pairs_(picture.size()),
+        far_from_back_(distance_from(trimap, known::background)), weight_(static_cast<float>(options.nearness)),
+        pairs_(picture.size(), cv::Vec2i(static_cast<int>(fronts_.size()) / 2, static_cast<int>(backs_.size()) / 2)),
         costs_(picture.size(), std::numeric_limits<float>::infinity()) {}
 
   ColourSamples best() {
@@ -75,38 +76,46 @@ class Search {
   float far_from_both(int y, int x) const { return std::max(far_from_front_(y, x), far_from_back_(y, x)); }
 
   void improve(int y, int x, int round) {
+    const Place here{static_cast<float>(x), static_cast<float>(y), weight_ / far_from_front_(y, x),
+                     weight_ / far_from_back_(y, x), picture_(y, x)};
     Pair best{pairs_(y, x)[0], pairs_(y, x)[1]};
     float least = costs_(y, x);
     const auto consider = [&](const Pair& pair) {
-      const float cost = cost_of(y, x, pair);
+      const float cost = cost_of(here, pair, least);
       if (cost < least) least = cost, best = pair;
     };
     for (const auto& [dy, dx] : {std::pair{-1, 0}, {0, -1}, {0, 1}, {1, 0}})
       if (const int ny = y + dy, nx = x + dx; ny >= 0 && nx >= 0 && ny < picture_.rows && nx < picture_.cols)
         if (costs_(ny, nx) < std::numeric_limits<float>::infinity()) consider({pairs_(ny, nx)[0], pairs_(ny, nx)[1]});
-    float reach = 1;
-    for (int step = 0; reach * static_cast<float>(std::max(fronts_.size(), backs_.size())) > 1; ++step, reach /= 2) {
+    const auto fronts = static_cast<double>(fronts_.size()), backs = static_cast<double>(backs_.size());
+    double reach = 1;
+    for (int step = 0; reach * std::max(fronts, backs) > 1; ++step, reach /= 2) {
       const std::uint64_t bits = random_bits(options_.seed, {static_cast<std::int64_t>(y) * picture_.cols + x, round, step});
-      consider({near(best.front, reach, fronts_.size(), bits & 0xffffffff), near(best.back, reach, backs_.size(), bits >> 32)});
+      consider({near(best.front, reach * fronts, fronts_.size(), bits & 0xffffffff),
+                near(best.back, reach * backs, backs_.size(), bits >> 32)});
     }
     pairs_(y, x) = {best.front, best.back};
     costs_(y, x) = least;
   }
 
-  // A sample's number within `reach` times all of them.
-  static int near(int centre, float reach, size_t count, std::uint64_t random) {
-    const double share = static_cast<double>(random) / 4294967296.0 * 2 - 1;
-    const int at = centre + static_cast<int>(std::lround(share * reach * static_cast<double>(count)));
-    return std::clamp(at, 0, static_cast<int>(count) - 1);
+  // A sample's number, no further than `reach` from `centre`.
+  static int near(int centre, double reach, size_t count, std::uint64_t random) {
+    const double share = static_cast<double>(static_cast<std::int64_t>(random)) * (2 / 4294967296.0) - 1;
+    return std::clamp(centre + static_cast<int>(share * reach), 0, static_cast<int>(count) - 1);
   }
 
-  float cost_of(int y, int x, const Pair& pair) const {
+  struct Place {
+    float x, y, by_front, by_back;  // what a pixel's distance costs
+    cv::Vec4f colour;
+  };
+
+  // What a pair costs, or, where that is more than `enough`, something that is too.
+  float cost_of(const Place& place, const Pair& pair, float enough) const {
     const Sample &front = fronts_[pair.front], &back = backs_[pair.back];
-    const float far_front = std::hypot(front.x - static_cast<float>(x), front.y - static_cast<float>(y));
-    const float far_back = std::hypot(back.x - static_cast<float>(x), back.y - static_cast<float>(y));
-    const auto nearness = static_cast<float>(options_.nearness);
-    return levels * misfit(picture_(y, x), front, back) +
-           nearness * (far_front / far_from_front_(y, x) + far_back / far_from_back_(y, x));
+    const float front_x = front.x - place.x, front_y = front.y - place.y, back_x = back.x - place.x, back_y = back.y - place.y;
+    const float far = place.by_front * std::sqrt(front_x * front_x + front_y * front_y) +
+                      place.by_back * std::sqrt(back_x * back_x + back_y * back_y);
+    return far >= enough ? far : far + levels * misfit(place.colour, front, back);
   }
 
   static float misfit(const cv::Vec4f& colour, const Sample& front, const Sample& back) {
@@ -138,6 +147,7 @@ class Search {
   ColourSampleOptions options_;
   std::vector<Sample> fronts_, backs_;
   Plane far_from_front_, far_from_back_;
+  float weight_;
   cv::Mat_<cv::Vec2i> pairs_;
   Plane costs_;
 };

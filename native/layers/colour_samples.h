@@ -8,7 +8,7 @@
 namespace stillwater {
 
 struct ColourSampleOptions {
-  int iterations = 8;      ///< rounds of the search
+  int iterations = 4;      ///< rounds of the search
   double nearness = 1;     ///< weight of the samples' distances against colour, 1 per 1/255
   double reach = 1e6;      ///< px; pixels further away from known ones of either kind get no samples
   std::uint64_t seed = 1;
