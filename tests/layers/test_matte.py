@@ -33,19 +33,20 @@ def test_what_is_known_stays_and_all_is_within_0_and_1():
 
 
 def test_colour_decides_what_the_laplacian_leaves_open():
-    """Two stripes of known colours that no scribble touches: each one belongs to the side that has its colour."""
-    picture = np.zeros((40, 60, 3), np.float32)
-    picture[:, :30], picture[:, 30:] = [0.8, 0.3, 0.1], [0.1, 0.3, 0.8]
-    picture[15:25, 35:45] = [0.8, 0.3, 0.1]
-    picture += np.random.default_rng(1).normal(0, 0.01, picture.shape).astype(np.float32)
-    trimap = np.full((40, 60), 0.5, np.float32)
-    trimap[:, :10], trimap[:, 50:] = 1, 0
-    plain, options = engine.MatteOptions(), engine.MatteOptions()
+    """Behind a fence of a third colour, foreground's colours and background's alternate."""
+    rng = np.random.default_rng(1)
+    picture, trimap = np.empty((60, 90, 3)), np.full((60, 90), 0.5, np.float32)
+    picture[:, :45], picture[:, 45:] = [0.8, 0.3, 0.1], [0.1, 0.3, 0.8]
+    picture[20:40, 45:60] = [0.8, 0.3, 0.1]
+    picture[18:42, [44, 45, 46, 59, 60, 61]] = [0.4, 0.9, 0.4]
+    picture[[18, 19, 40, 41], 44:62] = [0.4, 0.9, 0.4]
+    trimap[:, :30], trimap[:, 75:] = 1, 0
+    rgba = np.dstack([picture + rng.normal(0, 0.01, picture.shape), np.ones((60, 90))]).astype(np.float32)
+    told, plain = engine.MatteOptions(), engine.MatteOptions()
     plain.colour = 0
-    rgba = np.dstack([picture, np.ones((40, 60), np.float32)])
-    island = np.s_[17:23, 37:43]
-    assert engine.matte(rgba, trimap, options)[island].min() > 0.9
-    assert engine.matte(rgba, trimap, plain)[island].mean() < engine.matte(rgba, trimap, options)[island].mean()
+    island = np.s_[22:38, 48:58]
+    assert engine.matte(rgba, trimap, told)[island].min() > 0.9
+    assert engine.matte(rgba, trimap, plain)[island].max() < 0.9
 
 
 def test_haze_is_taken_off():
