@@ -119,7 +119,8 @@ Plane enlarge_matte(const Plane& matte, const Rgba& half, const Rgba& picture) {
   return result;
 }
 
-Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options, const SolveLevel& solve) {
+Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options,
+                     const SolveLevel& solve) {
   const bool enlarge_only = options.finest > 1;
   const bool small = std::min(picture.rows, picture.cols) < 8;
   if (small || (!enlarge_only && can_be_solved_at_once(trimap, options))) return solve(picture, trimap, {});

@@ -95,7 +95,8 @@ MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourP
     const double apart = distance_between(samples.foreground(y, x), samples.background(y, x)) / options.separation;
     const double fits = std::exp(-samples.misfit(y, x) / options.misfit);
     const double smooth = std::exp(-roughness_at(picture, prior.alpha, y, x) / options.roughness);
-    prior.weight(y, x) = static_cast<float>(options.weight * std::min(1.0, apart * apart) * fits * smooth * trust(y, x));
+    prior.weight(y, x) =
+        static_cast<float>(options.weight * std::min(1.0, apart * apart) * fits * smooth * trust(y, x));
   });
   return prior;
 }

@@ -33,8 +33,8 @@ void refuse_contradictions(const Labels& foreground, const Labels& background) {
     for (int x = 0; x < foreground.cols; ++x)
       if (foreground(y, x) && background(y, x))
         throw BadInput("scribbles: foreground[" + std::to_string(foreground(y, x) - 1) + "] and background[" +
-                       std::to_string(background(y, x) - 1) + "] contradict each other at [" + std::to_string(x) + ", " +
-                       std::to_string(y) + "] (a pixel is one or the other)");
+                       std::to_string(background(y, x) - 1) + "] contradict each other at [" + std::to_string(x) +
+                       ", " + std::to_string(y) + "] (a pixel is one or the other)");
 }
 
 // The distance of each pixel's centre from the outline, as far as `reach`; further away infinite.
@@ -88,7 +88,8 @@ void check_lasso(const Rgba& picture, const Lasso& lasso) {
   if (lasso.outline.size() < 3)
     throw BadInput("lasso: " + std::to_string(lasso.outline.size()) + " points are not three or more");
   for (size_t i = 0; i < lasso.outline.size(); ++i)
-    for (const double v : {lasso.outline[i].x, lasso.outline[i].y}) check::finite("lasso[" + std::to_string(i) + "]", v);
+    for (const double v : {lasso.outline[i].x, lasso.outline[i].y})
+      check::finite("lasso[" + std::to_string(i) + "]", v);
   check::in_range("feather", lasso.feather, 0, 1000, "px");
   check::in_range("snap", lasso.snap, 0, 1000, "px");
 }

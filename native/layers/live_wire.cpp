@@ -111,7 +111,9 @@ class LiveWire {
 
   std::vector<cv::Point> cheapest_way(const cv::Point& from, const cv::Point& to, size_t first, size_t last) const {
     if (!in_picture(from) || !in_picture(to)) return {};
-    const auto [corridor, box] = near_samples(first, last);
+    const auto near = near_samples(first, last);
+    const Mask& corridor = near.first;
+    const cv::Rect& box = near.second;
     if (!box.contains(from) || !box.contains(to) || !corridor(from - box.tl()) || !corridor(to - box.tl())) return {};
     double strongest;
     cv::minMaxLoc(edges_(box), nullptr, &strongest, nullptr, nullptr, corridor);
@@ -143,7 +145,8 @@ class LiveWire {
     }
     std::vector<cv::Point> way;
     if (start != goal && came_from(goal) < 0) return way;
-    for (cv::Point p = goal; p != start; p = {came_from(p) % box.width, came_from(p) / box.width}) way.push_back(p + box.tl());
+    for (cv::Point p = goal; p != start; p = {came_from(p) % box.width, came_from(p) / box.width})
+      way.push_back(p + box.tl());
     way.push_back(from);
     std::reverse(way.begin(), way.end());
     return way;
@@ -162,9 +165,10 @@ class LiveWire {
     }
     bounds &= cv::Rect2d(0, 0, edges_.cols, edges_.rows);
     if (bounds.empty()) return {};
-    const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(bounds.x), static_cast<int>(bounds.y)),
-                                  cv::Point(static_cast<int>(std::ceil(bounds.br().x)), static_cast<int>(std::ceil(bounds.br().y)))) &
-                         cv::Rect(cv::Point(), edges_.size());
+    const cv::Rect box =
+        cv::Rect(cv::Point(static_cast<int>(bounds.x), static_cast<int>(bounds.y)),
+                 cv::Point(static_cast<int>(std::ceil(bounds.br().x)), static_cast<int>(std::ceil(bounds.br().y)))) &
+        cv::Rect(cv::Point(), edges_.size());
     for (StrokePoint& point : band.points) point.x -= box.x, point.y -= box.y;
     Mask mask = Mask::zeros(box.size());
     draw(band, "lasso", mask);
