@@ -68,7 +68,7 @@ class FilteredWater {
   float at(Point level, float* down = nullptr) const;
 
  private:
-  void fill_block(int block, int j, float* values) const;
+  void fill_blocks(int j, int first, int blocks, float* values) const;
   float node(int i, int j) const;
 
   WaterPlane plane_;

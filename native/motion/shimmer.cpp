@@ -118,11 +118,11 @@ class LeavesAtMoment : public Displacement {
 
 }  // namespace
 
-Shimmer::Shimmer(const Segment& armature, std::uint64_t seed) : armature_(armature), leaves_(side * side) {
+Shimmer::Shimmer(const Segment& armature, std::uint64_t seed) : armature_(armature) {
   for (int i = 0; i < side * side; ++i) {
-    leaves_[i] = {static_cast<float>(slowest + (fastest - slowest) * random_uniform(seed, {i, 0, 3})),
-                  static_cast<float>(random_uniform(seed, {i, 1, 3})),
-                  static_cast<float>(random_uniform(seed, {i, 2, 3}))};
+    frequency_.push_back(static_cast<float>(slowest + (fastest - slowest) * random_uniform(seed, {i, 0, 3})));
+    phase_x_.push_back(static_cast<float>(random_uniform(seed, {i, 1, 3})));
+    phase_y_.push_back(static_cast<float>(random_uniform(seed, {i, 2, 3})));
   }
 }
 
@@ -131,21 +131,19 @@ std::unique_ptr<const Displacement> Shimmer::at(const Moment& moment, double shi
   const double cell = std::max(cell_share * length, 1.0);
   const double longest = largest_swing * cell * shimmer * local_speed / (local_speed + half_wind);
   const double loop = moment.loop_frames / moment.fps;
-  const auto turns = [&](double frequency) {
-    if (moment.loop_frames == 0) return frequency * moment.seconds();
-    return std::max(1.0, std::nearbyint(frequency * loop)) * (frames_into_loop(moment) / moment.loop_frames);
+  const float size = static_cast<float>(longest / std::numbers::sqrt2);
+  static const auto swing = has_avx2() ? shimmer_swing_avx2 : shimmer_swing;
+  const auto swung = [&](const std::vector<float>& phase) {
+    std::vector<float> nodes(phase.size());
+    const int count = static_cast<int>(phase.size());
+    if (moment.loop_frames == 0)
+      swing(frequency_.data(), 0, moment.seconds(), phase.data(), size, count, nodes.data());
+    else
+      swing(frequency_.data(), loop, frames_into_loop(moment) / moment.loop_frames, phase.data(), size, count, nodes.data());
+    return nodes;
   };
-  const auto swing = [&](double turn) {
-    return static_cast<float>(longest / std::numbers::sqrt2 * std::cos(2 * std::numbers::pi * turn));
-  };
-  Nodes nodes{std::vector<float>(leaves_.size()), std::vector<float>(leaves_.size())};
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    const Leaf& leaf = leaves_[i];
-    const double turn = turns(leaf.frequency), rest = turn - std::floor(turn);
-    nodes.x[i] = swing(rest + leaf.phase_x), nodes.y[i] = swing(rest + leaf.phase_y);
-  }
   return std::make_unique<LeavesAtMoment>(armature_, static_cast<float>(cell), static_cast<float>(longest),
-                                          std::move(nodes));
+                                          Nodes{swung(phase_x_), swung(phase_y_)});
 }
 
 }  // namespace stillwater

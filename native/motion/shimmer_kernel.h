@@ -14,6 +14,26 @@ struct ShimmerKernel {
   const float *swing_x, *swing_y;  // of the nodes, row by row, px
 };
 
+/// `count` nodes at a moment: size cos(2 pi (frequency time + phase)), to 1e-6 of the size; frequencies in Hz, phases in
+/// turns, time in seconds. In a loop (of so many seconds, above 0) frequencies become whole turns, at least one, and
+/// time is the share of the loop.
+static inline void shimmer_swing(const float* frequency, double loop, double time, const float* phase, float size,
+                                 int count, float* out) {
+  const double to_whole = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to a whole number
+  for (int i = 0; i < count; ++i) {
+    const double whole = (frequency[i] * loop + to_whole) - to_whole;
+    const double turns = loop > 0 ? (whole > 1 ? whole : 1) : frequency[i];
+    const double all = turns * time + phase[i];
+    const float x = (float)(all - ((all + to_whole) - to_whole));
+    // Fold to a quarter turn on either side; half a turn away changes the sign.
+    const float half = (2 * x + 12582912.0f) - 12582912.0f;  // -1, 0 or 1
+    const float r = x - 0.5f * half, q = r * r;
+    const float cosine =
+        1 + q * (-19.739208f + q * (64.939384f + q * (-85.455361f + q * (60.179092f - q * 25.218599f))));
+    out[i] = size * (1 - 2 * half * half) * cosine;
+  }
+}
+
 // Quadratic B-spline at f from the middle node, -0.5 .. 0.5.
 static inline void shimmer_weights(float f, float* w) {
   const float before = 0.5f - f, after = 0.5f + f;
