@@ -134,10 +134,8 @@ bool Source::is_clear_inside(const cv::Rect& area) const {
   return sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left) == 0;
 }
 
-bool Source::copy(int x, int y, int count, cv::Vec4f* out) const {
-  if (empty() || is_clear_inside(cv::Rect(x, y, count, 1))) return false;
-  std::copy_n(at(x, y), count, out);
-  return true;
+const cv::Vec4f* Source::run_at(int x, int y, int count) const {
+  return empty() || is_clear_inside(cv::Rect(x, y, count, 1)) ? nullptr : at(x, y);
 }
 
 bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {

@@ -41,8 +41,9 @@ class Source {
   /// Whether `count` pixels from (x, y) on are all in the image.
   bool holds(int x, int y, int count) const { return x >= 0 && x + count <= width_ && y >= 0 && y < height_; }
 
-  /// The same as sample() for `count` pixels from (x, y) on, which it holds().
-  bool copy(int x, int y, int count, cv::Vec4f* out) const;
+  /// The same as sample() for `count` pixels from (x, y) on, which it holds(): where they lie in the image, with at
+  /// least 4 pixels behind them; null where there is no coverage.
+  const cv::Vec4f* run_at(int x, int y, int count) const;
 
   /// Pixel (x, y), at most 4 outside of the image: what sample() gives there.
   const cv::Vec4f* at(int x, int y) const { return &padded_(y + frame, x + frame); }
