@@ -26,15 +26,25 @@ struct RowState {
   int open = 0;  // pixels that are needed
 };
 
-// Distance to the first that is not 0, at most `count`.
+// How many bytes there are before the first, or behind the last, that is not 0; at most `count`.
 int zeros_before(const unsigned char* bytes, int count) {
-  int i = 0;
-  for (std::uint64_t eight; i + 8 <= count; i += 8) {
-    std::memcpy(&eight, bytes + i, sizeof eight);
+  int zeros = 0;
+  for (std::uint64_t eight; zeros + 8 <= count; zeros += 8) {
+    std::memcpy(&eight, bytes + zeros, sizeof eight);
     if (eight != 0) break;
   }
-  while (i < count && bytes[i] == 0) ++i;
-  return i;
+  while (zeros < count && bytes[zeros] == 0) ++zeros;
+  return zeros;
+}
+
+int zeros_behind(const unsigned char* bytes, int count) {
+  int zeros = 0;
+  for (std::uint64_t eight; zeros + 8 <= count; zeros += 8) {
+    std::memcpy(&eight, bytes + count - zeros - 8, sizeof eight);
+    if (eight != 0) break;
+  }
+  while (zeros < count && bytes[count - zeros - 1] == 0) ++zeros;
+  return zeros;
 }
 
 // Composes one tile, row by row: what is known of a row stays in the processor's nearest cache.
@@ -102,11 +112,11 @@ class TileComposer {
   // The row of one layer, as far as it is needed.
   void lay_under(const Part& part) {
     const ComposedLayer& layer = layers_[part.layer];
-    int first = part.place.x - tile_.x, last = first + part.place.width - 1;
-    first += zeros_before(row_.needed + first, part.place.width);
-    while (first < last && !row_.needed[last]) --last;
-    if (first > last) return;
-    const Run open{tile_.x + first, y_, last - first + 1};
+    const unsigned char* needed = row_.needed + (part.place.x - tile_.x);
+    const int hidden = zeros_before(needed, part.place.width), rest = part.place.width - hidden;
+    if (rest == 0) return;
+    const int first = part.place.x - tile_.x + hidden;
+    const Run open{tile_.x + first, y_, rest - zeros_behind(needed + hidden, rest)};
     const cv::Vec4f* drawn = layer.motion->draw(open, row_.needed + first, drawn_.data());
     if (!drawn) return;
     const auto traced = [&](auto* numbers) { return traced_ ? numbers + first : nullptr; };

@@ -26,7 +26,7 @@ void sample_plain(const float* origin, std::ptrdiff_t stride, const float* x, co
       sum += w.y[row][i] * (w.x[0][i] * neighbour[0] + w.x[1][i] * neighbour[1] + w.x[2][i] * neighbour[2] +
                             w.x[3][i] * neighbour[3]);
     }
-    *reinterpret_cast<stillwater_v4u*>(out + 4 * i) = within_coverage(sum);
+    *reinterpret_cast<stillwater_v4u*>(out + 4 * i) = within_coverage(settled(sum));
   }
 }
 
@@ -53,27 +53,32 @@ void wrap(float* at, int count, int size) {
   for (int i = 0; i < count; ++i) at[i] -= period * std::floor(at[i] / period);
 }
 
+void range_plain(const float* at, int count, float* low, float* high) {
+  constexpr int lanes = 4;
+  stillwater_v4 smallest, largest, nothing;  // x - x is 0 for numbers only
+  for (int k = 0; k < lanes; ++k) {
+    const float number = at[std::min(k, count - 1)];
+    smallest[k] = largest[k] = number;
+    nothing[k] = number - number;
+  }
+  for (int i = std::min(lanes, count % lanes); i + lanes <= count; i += lanes) {
+    const stillwater_v4 here = *reinterpret_cast<const stillwater_v4u*>(at + i);
+    smallest = here < smallest ? here : smallest;
+    largest = here > largest ? here : largest;
+    nothing += here - here;
+  }
+  const float no_number = nothing[0] + nothing[1] + nothing[2] + nothing[3];
+  *low = std::min({smallest[0], smallest[1], smallest[2], smallest[3]}) + no_number;
+  *high = std::max({largest[0], largest[1], largest[2], largest[3]}) + no_number;
+}
+
 // Smallest and largest of at least one number; no numbers where one of them is none.
 struct Range {
   float low, high;
 
   Range(const float* at, int count) {
-    constexpr int lanes = 4;
-    stillwater_v4 smallest, largest, nothing;  // x - x is 0 for numbers only
-    for (int k = 0; k < lanes; ++k) {
-      const float number = at[std::min(k, count - 1)];
-      smallest[k] = largest[k] = number;
-      nothing[k] = number - number;
-    }
-    for (int i = std::min(lanes, count % lanes); i + lanes <= count; i += lanes) {
-      const stillwater_v4 here = *reinterpret_cast<const stillwater_v4u*>(at + i);
-      smallest = here < smallest ? here : smallest;
-      largest = here > largest ? here : largest;
-      nothing += here - here;
-    }
-    const float no_number = nothing[0] + nothing[1] + nothing[2] + nothing[3];
-    low = std::min({smallest[0], smallest[1], smallest[2], smallest[3]}) + no_number;
-    high = std::max({largest[0], largest[1], largest[2], largest[3]}) + no_number;
+    static const auto range = has_avx2() ? stillwater_range_avx2 : range_plain;
+    (count < 8 ? range_plain : range)(at, count, &low, &high);
   }
 
   bool within(int size) const { return low >= 0 && high <= static_cast<float>(size - 1); }
@@ -135,7 +140,10 @@ bool Source::is_clear_inside(const cv::Rect& area) const {
 }
 
 const cv::Vec4f* Source::run_at(int x, int y, int count) const {
-  return empty() || is_clear_inside(cv::Rect(x, y, count, 1)) ? nullptr : at(x, y);
+  if (empty() || is_clear_inside(cv::Rect(x, y, count, 1))) return nullptr;
+  const cv::Vec4f *pixels = at(x, y), *below = at(x, std::min(y + 2, height_));
+  for (int i = 0; i < count; i += 4) __builtin_prefetch(below + i);  // as ask_for_rows_below() does
+  return pixels;
 }
 
 bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {

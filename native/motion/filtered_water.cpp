@@ -71,17 +71,20 @@ float LocalWind::corner(int column, int line) const {
                   std::clamp(column - first_column_, 0, factors_.cols - 1));
 }
 
-void LocalWind::strengthen(int block, int j, float* values) const {
-  if (factors_.total() == 1) return;
-  const int line = floor_div(j, spacing_);
-  const float share = static_cast<float>(j - line * spacing_) / static_cast<float>(spacing_);
+void LocalWind::strengthen(int block, int j, float factor, float* values) const {
+  if (factors_.total() == 1) {
+    for (int i = 0; i < block_side; ++i) values[i] *= factor;
+    return;
+  }
+  const int spacing = spacing_, line = floor_div(j, spacing);
+  const float share = static_cast<float>(j - line * spacing) / static_cast<float>(spacing);
   const auto at = [&](int column) {
-    return corner(column, line) + share * (corner(column, line + 1) - corner(column, line));
+    return factor * (corner(column, line) + share * (corner(column, line + 1) - corner(column, line)));
   };
-  for (int first = 0; first < block_side; first += spacing_) {
-    const int column = (block * block_side + first) / spacing_;
-    const float left = at(column), step = (at(column + 1) - left) / static_cast<float>(spacing_);
-    for (int i = 0; i < spacing_; ++i) values[first + i] *= left + step * static_cast<float>(i);
+  for (int first = 0; first < block_side; first += spacing) {
+    const int column = (block * block_side + first) / spacing;
+    const float left = at(column), step = (at(column + 1) - left) / static_cast<float>(spacing);
+    for (int i = 0; i < spacing; ++i) values[first + i] *= left + step * static_cast<float>(i);
   }
 }
 
@@ -142,8 +145,7 @@ void FilteredWater::fill_blocks(int j, int first, int blocks, float* values) con
   for (int block = first; block < first + blocks; ++block, values += block_side) {
     const double x = node_x(block * block_side);
     line.filtered(x * width, footprint.shear_step * x, values);
-    for (int i = 0; i < block_side; ++i) values[i] *= factor;
-    wind_->strengthen(block, j, values);
+    wind_->strengthen(block, j, factor, values);
     if (bends_)
       for (int i = 0; i < block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
   }

@@ -19,6 +19,8 @@ constexpr int longest_run = 256;  // whole vectors
 constexpr double spline_variance = 1.0 / 3;
 constexpr double widest = 7;  // square of the stretch at which the next level takes over: 3 + 4 * 1
 
+constexpr int rows_at_once = 64;
+
 /// Samples by which the two shears of a block may differ and not be blended, at the footprint's standard deviation.
 constexpr double unseen_lean = 0.05;
 
@@ -62,6 +64,14 @@ void continue_row(float* row, int width, int stride) {
   for (int x = width; x < stride; x += width) std::copy_n(row, std::min(width, stride - x), row + x);
 }
 
+// Of a whole number of fours.
+float largest_size(const float* numbers, int count) {
+  std::array<float, 4> largest{};
+  for (int i = 0; i < count; i += 4)
+    for (int k = 0; k < 4; ++k) largest[k] = std::max(largest[k], std::abs(numbers[i + k]));
+  return *std::max_element(largest.begin(), largest.end());
+}
+
 }  // namespace
 
 Ripmap::Ripmap(const InverseFft2& spline) : size_(spline.size()), top_(0) {
@@ -87,18 +97,22 @@ void Ripmap::lay_out_levels() {
 
 void Ripmap::copy(const InverseFft2& spline) {
   const Level& first = level(0, 0);
-  for (int y = 0; y < size_; ++y) {
-    float* row = first.row(y);
-    std::copy_n(spline.tile_row(y), size_, row);
-    for (int x = 0; x < size_; ++x) bound_ = std::max(bound_, std::abs(row[x]));
-    continue_row(row, size_, first.stride);
-  }
+  std::vector<float> bounds(size_);
+  parallel_rows(size_, rows_at_once, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      float* row = first.row(y);
+      std::copy_n(spline.tile_row(y), size_, row);
+      continue_row(row, size_, first.stride);
+      bounds[y] = largest_size(row, size_);
+    }
+  });
+  bound_ = *std::max_element(bounds.begin(), bounds.end());
 }
 
 /// All levels of this height, from the one twice as high.
 void Ripmap::halve(int along_y) {
   const Level &above = level(0, along_y - 1), &wide = level(0, along_y);
-  parallel_rows(wide.height, 32, [&](int first, int last) {
+  parallel_rows(wide.height, rows_at_once, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const auto from = [&](int dy) { return above.row(wrapped(2 * y + dy, above.height)); };
       const float *a = from(-2), *b = from(-1), *c = from(0), *d = from(1), *e = from(2);
