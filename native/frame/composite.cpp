@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -22,29 +23,31 @@ struct RowState {
   float moving[length];
   float most[length];
   int owner[length];
-  unsigned char needed[length];
+  unsigned char around_needed[8 + length + 8] = {};
+  unsigned char* const needed = around_needed + 8;
   int open = 0;  // pixels that are needed
 };
 
-// How many bytes there are before the first, or behind the last, that is not 0; at most `count`.
+static_assert(std::endian::native == std::endian::little);
+
+std::uint64_t eight_bytes(const unsigned char* bytes) {
+  std::uint64_t eight;
+  std::memcpy(&eight, bytes, sizeof eight);
+  return eight;
+}
+
+// How many bytes there are before the first, or behind the last, that is not 0; at most `count`. Seven more are read.
 int zeros_before(const unsigned char* bytes, int count) {
-  int zeros = 0;
-  for (std::uint64_t eight; zeros + 8 <= count; zeros += 8) {
-    std::memcpy(&eight, bytes + zeros, sizeof eight);
-    if (eight != 0) break;
-  }
-  while (zeros < count && bytes[zeros] == 0) ++zeros;
-  return zeros;
+  for (int i = 0; i < count; i += 8)
+    if (const std::uint64_t eight = eight_bytes(bytes + i)) return std::min(count, i + std::countr_zero(eight) / 8);
+  return count;
 }
 
 int zeros_behind(const unsigned char* bytes, int count) {
-  int zeros = 0;
-  for (std::uint64_t eight; zeros + 8 <= count; zeros += 8) {
-    std::memcpy(&eight, bytes + count - zeros - 8, sizeof eight);
-    if (eight != 0) break;
-  }
-  while (zeros < count && bytes[count - zeros - 1] == 0) ++zeros;
-  return zeros;
+  for (int i = 0; i < count; i += 8)
+    if (const std::uint64_t eight = eight_bytes(bytes + count - i - 8))
+      return std::min(count, i + std::countl_zero(eight) / 8);
+  return count;
 }
 
 // Composes one tile, row by row: what is known of a row stays in the processor's nearest cache.

@@ -149,7 +149,7 @@ void FrameRenderer::render_for_screen(const FrameNumbers& now, ScreenWish wish, 
     if (wish.coverage)
       for (int i = 0; i < run.count; ++i) pixels[i] = {pixels[i][3], pixels[i][3], pixels[i][3], 1};
     const size_t row = size_.height - 1 - run.y;
-    display_to_scene(pixels->val, rgba + (row * size_.width + run.x) * 4, run.count);
+    display_to_screen(pixels->val, rgba + (row * size_.width + run.x) * 4, run.count);
   });
 }
 

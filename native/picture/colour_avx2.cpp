@@ -35,17 +35,47 @@ inline __m256 within_numbers(__m256 colour) {
   return _mm256_max_ps(least, _mm256_min_ps(most, colour));
 }
 
-// display_to_scene() of two pixels.
-inline __m256 scene_of_display(__m256 pixels) {
+inline bool are_opaque(__m256 alphas) {
+  return _mm256_movemask_ps(_mm256_cmp_ps(alphas, _mm256_set1_ps(1.0f), _CMP_NEQ_UQ)) == 0;
+}
+
+// The curve of display_to_screen(), of eight numbers. The polynomial is the curve's best within the range, by levels.
+inline __m256 screen_of_srgb_8(__m256 x) {
+  const __m256 low = _mm256_cmp_ps(x, _mm256_set1_ps(-0.04f), _CMP_GE_OQ);
+  const __m256 high = _mm256_cmp_ps(x, _mm256_set1_ps(1.1f), _CMP_LE_OQ);
+  if (_mm256_movemask_ps(_mm256_and_ps(low, high)) != 0xff) return linear_of_srgb_8(x);
+  const float powers[] = {-0.27945355f, 0.64834636f, 0.52436937f, 0.0322596f, 0.00093061f};
+  __m256 curved = _mm256_set1_ps(0.07341028f);
+  for (int i = 0; i < 5; ++i) curved = _mm256_fmadd_ps(curved, x, _mm256_set1_ps(powers[i]));
+  const __m256 straight = _mm256_mul_ps(x, _mm256_set1_ps(1.0f / 12.92f));
+  return _mm256_blendv_ps(curved, straight, _mm256_cmp_ps(x, _mm256_set1_ps(0.04045f), _CMP_LE_OQ));
+}
+
+// Premultiplied pixels through a curve, two in a register.
+template <__m256 (*curve)(__m256)>
+inline __m256 two_pixels(__m256 pixels) {
   const __m256 one = _mm256_set1_ps(1.0f), alphas = _mm256_permute_ps(pixels, 0xff);
-  __m256 linear;
-  if (_mm256_movemask_ps(_mm256_cmp_ps(alphas, one, _CMP_NEQ_UQ)) == 0) {
-    linear = linear_of_srgb_8(within_numbers(pixels));
-  } else {
-    const __m256 alpha = _mm256_blendv_ps(one, alphas, _mm256_cmp_ps(alphas, _mm256_setzero_ps(), _CMP_GT_OQ));
-    linear = _mm256_mul_ps(linear_of_srgb_8(within_numbers(_mm256_div_ps(pixels, alpha))), alpha);
+  const __m256 alpha = _mm256_blendv_ps(one, alphas, _mm256_cmp_ps(alphas, _mm256_setzero_ps(), _CMP_GT_OQ));
+  const __m256 straight = within_numbers(_mm256_div_ps(pixels, alpha));
+  return _mm256_blend_ps(_mm256_mul_ps(curve(straight), alpha), pixels, 0x88);
+}
+
+template <__m256 (*curve)(__m256)>
+inline __m256 two_opaque_pixels(__m256 pixels) {
+  return _mm256_blend_ps(curve(within_numbers(pixels)), pixels, 0x88);
+}
+
+// Answers how many pixels are done: a multiple of four.
+template <__m256 (*curve)(__m256)>
+inline size_t fours_of_pixels(const float* in, float* out, size_t pixels) {
+  size_t i = 0;
+  for (; i + 4 <= pixels; i += 4) {
+    const __m256 first = _mm256_loadu_ps(in + 4 * i), second = _mm256_loadu_ps(in + 4 * i + 8);
+    const bool opaque = are_opaque(_mm256_shuffle_ps(first, second, 0xff));
+    _mm256_storeu_ps(out + 4 * i, opaque ? two_opaque_pixels<curve>(first) : two_pixels<curve>(first));
+    _mm256_storeu_ps(out + 4 * i + 8, opaque ? two_opaque_pixels<curve>(second) : two_pixels<curve>(second));
   }
-  return _mm256_blend_ps(linear, pixels, 0x88);
+  return i;
 }
 
 }  // namespace
@@ -55,8 +85,12 @@ void srgb_to_linear_avx2(const float* in, float* out, size_t count) { srgb_to_li
 void linear_to_srgb_avx2(const float* in, float* out, size_t count) { linear_to_srgb_kernel(in, out, count); }
 
 void display_to_scene_avx2(const float* rgba_in, float* rgba_out, size_t pixels) {
-  size_t i = 0;
-  for (; i + 2 <= pixels; i += 2) _mm256_storeu_ps(rgba_out + 4 * i, scene_of_display(_mm256_loadu_ps(rgba_in + 4 * i)));
+  const size_t i = fours_of_pixels<linear_of_srgb_8>(rgba_in, rgba_out, pixels);
+  display_to_scene_kernel(rgba_in + 4 * i, rgba_out + 4 * i, pixels - i);
+}
+
+void display_to_screen_avx2(const float* rgba_in, float* rgba_out, size_t pixels) {
+  const size_t i = fours_of_pixels<screen_of_srgb_8>(rgba_in, rgba_out, pixels);
   display_to_scene_kernel(rgba_in + 4 * i, rgba_out + 4 * i, pixels - i);
 }
 
