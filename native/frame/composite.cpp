@@ -102,7 +102,7 @@ class TileComposer {
 
   void begin(int y, cv::Vec4f* combined) {
     y_ = y, combined_ = combined;
-    std::fill_n(combined, tile_.width, cv::Vec4f());
+    std::memset(combined->val, 0, tile_.width * sizeof *combined);
     std::fill_n(row_.through, tile_.width, 1.0f);
     std::fill_n(row_.needed, tile_.width, static_cast<unsigned char>(1));
     row_.open = tile_.width;

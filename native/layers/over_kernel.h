@@ -62,6 +62,7 @@ static inline int stillwater_lay_under(const float* drawn, float opacity, float 
     const stillwater_four behind = through;
     const float* colour = drawn + 4 * i;
     const stillwater_four coverage = stillwater_coverage(colour);
+    if (!stillwater_any(coverage > 0.0f)) continue;
     if (count - i >= 4 && opacity == 1.0f &&
         stillwater_all((behind == 1.0f) & (behind - coverage <= closed_below))) {
       stillwater_cover_four(colour, coverage, moves, index, i, run);

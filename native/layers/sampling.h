@@ -52,8 +52,10 @@ class Source {
   static constexpr int frame = 4;
   static constexpr int block = 8;
 
+  enum class Covered { nowhere, somewhere, everywhere };  ///< of blocks
+
   void map_coverage();
-  bool is_clear_inside(const cv::Rect& area) const;
+  Covered covered_inside(const cv::Rect& area) const;
 
   Rgba padded_;
   Beyond across_, down_;

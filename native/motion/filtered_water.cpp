@@ -71,20 +71,24 @@ float LocalWind::corner(int column, int line) const {
                   std::clamp(column - first_column_, 0, factors_.cols - 1));
 }
 
-void LocalWind::strengthen(int block, int j, float factor, float* values) const {
+void LocalWind::strengthen(int block, int blocks, int j, float factor, float* values) const {
+  const int count = blocks * block_side;
   if (factors_.total() == 1) {
-    for (int i = 0; i < block_side; ++i) values[i] *= factor;
+    for (int i = 0; i < count; ++i) values[i] *= factor;
     return;
   }
   const int spacing = spacing_, line = floor_div(j, spacing);
   const float share = static_cast<float>(j - line * spacing) / static_cast<float>(spacing);
   const auto at = [&](int column) {
-    return factor * (corner(column, line) + share * (corner(column, line + 1) - corner(column, line)));
+    const float above = corner(column, line);
+    return factor * (above + share * (corner(column, line + 1) - above));
   };
-  for (int first = 0; first < block_side; first += spacing) {
-    const int column = (block * block_side + first) / spacing;
-    const float left = at(column), step = (at(column + 1) - left) / static_cast<float>(spacing);
+  int column = block * block_side / spacing;
+  float left = at(column);
+  for (int first = 0; first < count; first += spacing) {
+    const float right = at(++column), step = (right - left) / static_cast<float>(spacing);
     for (int i = 0; i < spacing; ++i) values[first + i] *= left + step * static_cast<float>(i);
+    left = right;
   }
 }
 
@@ -142,13 +146,13 @@ void FilteredWater::fill_blocks(int j, int first, int blocks, float* values) con
                                 .shear_step = plane_.cosine() / plane_.focal()};
   const Ripmap::Line line(*tile_, footprint);
   const float factor = static_cast<float>(factor_ * lattice_damping(footprint.along, on_plane_.side));
-  for (int block = first; block < first + blocks; ++block, values += block_side) {
-    const double x = node_x(block * block_side);
-    line.filtered(x * width, footprint.shear_step * x, values);
-    wind_->strengthen(block, j, factor, values);
-    if (bends_)
-      for (int i = 0; i < block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
+  for (int i = 0; i < blocks; ++i) {
+    const double x = node_x((first + i) * block_side);
+    line.filtered(x * width, footprint.shear_step * x, values + i * block_side);
   }
+  wind_->strengthen(first, blocks, j, factor, values);
+  if (bends_)
+    for (int i = 0; i < blocks * block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
 }
 
 water_nodes FilteredWater::kept_nodes() const {
