@@ -34,8 +34,9 @@ class Source {
   bool is_clear(const cv::Rect& area) const;
 
   /// Colour at `count` places in index coordinates (0 = centre of the first pixel). Places whose `needed` byte is 0
-  /// are left alone. Answers false, with nothing filled in, where there is no coverage around any of them. Coverage comes out within 0 .. 1, and colour with it, so that the straight colour is kept.
-  /// `x` and `y` are used up.
+  /// are left alone. Answers false, with nothing filled in, where there is no coverage around any of them. Coverage
+  /// comes out within 0 .. 1, and colour with it, so that the straight colour is kept; where it is 1 but for the last
+  /// bits of the weights, it is 1. `x` and `y` are used up; they go on to a whole eight.
   bool sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
 
   /// Whether `count` pixels from (x, y) on are all in the image.

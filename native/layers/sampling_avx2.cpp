@@ -18,6 +18,36 @@ inline __m256 both(const float* left, const float* right) {
   return _mm256_set_m128(_mm_broadcast_ss(right), _mm_broadcast_ss(left));
 }
 
+// The weights of places, and where the first neighbour of each lies in the image: SamplingWeights, with its offset made
+// once. Whole eights are done.
+struct PlacedWeights {
+  float x[4][64], y[4][64];
+  int offset[64];
+};
+
+inline __m256 linear(float slope, __m256 t, float start) {
+  return _mm256_fmadd_ps(_mm256_set1_ps(slope), t, _mm256_set1_ps(start));
+}
+
+// Answers the places' whole parts.
+inline __m256i eight_weights(__m256 at, int i, float (*weights)[64]) {
+  const __m256 whole = _mm256_floor_ps(at), t = _mm256_sub_ps(at, whole), t2 = _mm256_mul_ps(t, t);
+  const __m256 one = _mm256_set1_ps(1.0f), half = _mm256_set1_ps(0.5f);
+  _mm256_storeu_ps(weights[0] + i, _mm256_fmsub_ps(t2, linear(-0.5f, t, 1.0f), _mm256_mul_ps(half, t)));
+  _mm256_storeu_ps(weights[1] + i, _mm256_fmadd_ps(t2, linear(1.5f, t, -2.5f), one));
+  _mm256_storeu_ps(weights[2] + i, _mm256_fmadd_ps(t2, linear(-1.5f, t, 2.0f), _mm256_mul_ps(half, t)));
+  _mm256_storeu_ps(weights[3] + i, _mm256_mul_ps(t2, linear(0.5f, t, -0.5f)));
+  return _mm256_cvttps_epi32(whole);
+}
+
+inline void place_weights(const float* x, const float* y, int count, int stride, PlacedWeights* w) {
+  for (int i = 0; i < count; i += 8) {
+    const __m256i column = eight_weights(_mm256_loadu_ps(x + i), i, w->x), row = eight_weights(_mm256_loadu_ps(y + i), i, w->y);
+    const __m256i line = _mm256_mullo_epi32(row, _mm256_set1_epi32(stride));
+    _mm256_storeu_si256((__m256i*)(w->offset + i), _mm256_add_epi32(line, _mm256_slli_epi32(column, 2)));
+  }
+}
+
 // settled() of sampling_kernel.h.
 inline __m128 settled_coverage(__m128 colour) {
   const __m128 one = _mm_set1_ps(1.0f), beside = _mm_andnot_ps(_mm_set1_ps(-0.0f), _mm_sub_ps(colour, one));
@@ -37,13 +67,13 @@ inline float smallest_of(__m256 numbers) {
 
 void stillwater_sample_avx2(const float* origin, ptrdiff_t stride, const float* x, const float* y,
                             const unsigned char* needed, int count, float* out) {
-  SamplingWeights w;
-  catmull_rom_weights(x, count, w.column, w.x);
-  catmull_rom_weights(y, count, w.row, w.y);
+  PlacedWeights w;
+  place_weights(x, y, count, (int)stride, &w);
+  const float* first_neighbour = origin - stride - 4;
   __m128 smallest = _mm_setzero_ps(), largest = smallest;
   for (int i = 0; i < count; ++i) {
     if (!needed[i]) continue;
-    const float* pixel = origin + (ptrdiff_t)(w.row[i] - 1) * stride + (ptrdiff_t)(w.column[i] - 1) * 4;
+    const float* pixel = first_neighbour + w.offset[i];
     ask_for_rows_below(pixel, stride);
     const __m256 first = both(&w.x[0][i], &w.x[1][i]), second = both(&w.x[2][i], &w.x[3][i]);
     // Down the columns first: the weights of the rows are those of all four.
