@@ -125,7 +125,8 @@ class TileComposer {
     const auto traced = [&](auto* numbers) { return traced_ ? numbers + first : nullptr; };
     const StillwaterComposedRun run{combined_[first].val, row_.through + first, traced(row_.moving),
                                     traced(row_.most),    traced(row_.owner),   row_.needed + first};
-    row_.open -= stillwater_lay_under(drawn->val, layer.opacity, layer.moves ? 1.0f : 0.0f, part.layer, open.count, run);
+    const float moves = layer.moves ? 1.0f : 0.0f;
+    row_.open -= stillwater_lay_under(drawn->val, layer.opacity, moves, part.layer, open.count, run);
   }
 
   const std::vector<ComposedLayer>& layers_;

@@ -26,9 +26,8 @@ struct CompositionWish {
 };
 
 /// Lays the layers (front first) over each other in fixed tiles, row by row, front to back, skipping what is covered
-/// already.
-/// The flow belongs to the front-most layer at which the coverage from the front reaches one half, else to the layer
-/// that contributes most; it is 0 where there is no layer.
+/// already. The flow belongs to the front-most layer at which the coverage from the front reaches one half, else to the
+/// layer that contributes most; it is 0 where there is no layer.
 Composition compose(const std::vector<ComposedLayer>& layers, const cv::Size& size, CompositionWish wish);
 
 /// The colours alone of one run of that.

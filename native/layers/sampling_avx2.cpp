@@ -42,7 +42,8 @@ inline __m256i eight_weights(__m256 at, int i, float (*weights)[64]) {
 
 inline void place_weights(const float* x, const float* y, int count, int stride, PlacedWeights* w) {
   for (int i = 0; i < count; i += 8) {
-    const __m256i column = eight_weights(_mm256_loadu_ps(x + i), i, w->x), row = eight_weights(_mm256_loadu_ps(y + i), i, w->y);
+    const __m256i column = eight_weights(_mm256_loadu_ps(x + i), i, w->x);
+    const __m256i row = eight_weights(_mm256_loadu_ps(y + i), i, w->y);
     const __m256i line = _mm256_mullo_epi32(row, _mm256_set1_epi32(stride));
     _mm256_storeu_si256((__m256i*)(w->offset + i), _mm256_add_epi32(line, _mm256_slli_epi32(column, 2)));
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The inner loops of the ripmap, in plain C that compilers turn into vectors; included by ripmap.cpp (SSE4.2). The AVX2
-/// forms are in ripmap_avx2.cpp.
+/// The inner loops of the ripmap, in plain C that compilers turn into vectors; included by ripmap.cpp (SSE4.2). The
+/// AVX2 forms are in ripmap_avx2.cpp.
 
 enum { ripmap_block = 64 };
 

@@ -148,8 +148,8 @@ static inline void mirror_move(const struct mirror_water* water, int rounds, flo
   }
 }
 
-/// MirrorWater::unmap of places that are nodes of level water, in the line y (level coordinates); `right` and `away` are
-/// their values.
+/// MirrorWater::unmap of places that are nodes of level water, in the line y (level coordinates); `right` and `away`
+/// are their values.
 static inline void mirror_row(const struct mirror_water* water, const float* right, const float* away, float y,
                               int count, float* px, float* py) {
   const float under = y - water->horizon, below = under > 0 ? under : 0;

@@ -21,8 +21,10 @@ void shimmer_unmap_avx2(const ShimmerKernel* kernel, float* x, float* y, int cou
   for (int p = 0; p < count; ++p) {
     const float* nodes = kernel->swing + places.first[p];
     __m256 sum = _mm256_mul_ps(_mm256_broadcast_ss(&places.down[0][p]), _mm256_loadu_ps(nodes));
-    for (int j = 1; j < 3; ++j)
-      sum = _mm256_fmadd_ps(_mm256_broadcast_ss(&places.down[j][p]), _mm256_loadu_ps(nodes + 2 * shimmer_stride * j), sum);
+    for (int j = 1; j < 3; ++j) {
+      nodes += 2 * shimmer_stride;
+      sum = _mm256_fmadd_ps(_mm256_broadcast_ss(&places.down[j][p]), _mm256_loadu_ps(nodes), sum);
+    }
     const __m256 f = _mm256_broadcast_ss(&places.across[p]);
     sum = _mm256_mul_ps(sum, _mm256_fmadd_ps(_mm256_fmadd_ps(square, f, linear), f, constant));
     const __m128 half = _mm_add_ps(_mm256_castps256_ps128(sum), _mm256_extractf128_ps(sum, 1));

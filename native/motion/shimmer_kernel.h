@@ -14,9 +14,9 @@ struct ShimmerKernel {
   const float* swing;  // of shimmer_side + 2 rows of shimmer_stride nodes, x and y of each, px
 };
 
-/// `count` nodes at a moment: size cos(2 pi (frequency time + phase)), to 1e-6 of the size; frequencies in Hz, phases in
-/// turns, time in seconds. In a loop (of so many seconds, above 0) frequencies become whole turns, at least one, and
-/// time is the share of the loop.
+/// `count` nodes at a moment: size cos(2 pi (frequency time + phase)), to 1e-6 of the size; frequencies in Hz, phases
+/// in turns, time in seconds. In a loop (of so many seconds, above 0) frequencies become whole turns, at least one,
+/// and time is the share of the loop.
 static inline void shimmer_swing(const float* frequency, double loop, double time, const float* phase, float size,
                                  int count, float* out) {
   const double to_whole = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to a whole number

@@ -335,7 +335,8 @@ void MirrorWater::unmap_row(float x0, float y0, float step, int count, float* x,
   std::fill_n(y, count, y0);
   const water_nodes& kept = water_.right;
   const float level_x = x0 - water_.centre_x, level_y = y0 - water_.centre_y;
-  const ptrdiff_t first = static_cast<ptrdiff_t>(level_y - kept.y) * kept.stride + static_cast<ptrdiff_t>(level_x - kept.x);
+  const ptrdiff_t line = static_cast<ptrdiff_t>(level_y - kept.y), column = static_cast<ptrdiff_t>(level_x - kept.x);
+  const ptrdiff_t first = line * kept.stride + column;
   mirror_row(&water_, water_.right.values + first, water_.away.values + first, level_y, count, x, y);
 }
 

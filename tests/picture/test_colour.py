@@ -110,7 +110,7 @@ def test_pixels_are_unpremultiplied_for_the_curve():
 
 
 def test_for_a_screen_the_curve_is_within_a_fortieth_of_a_level():
-    straight = np.concatenate([np.linspace(-0.5, 2, 300_000), np.geomspace(1e-6, 1e4, 99_999), [np.nan]]).astype(np.float32)
+    straight = np.concatenate([np.linspace(-0.5, 2, 300_000), np.geomspace(1e-6, 1e4, 99_999), [np.nan]], dtype=np.float32)
     for alpha in (1, 0.25, 0):
         display = np.dstack([straight * (alpha or 1)] * 3 + [np.full_like(straight, alpha)])
         screen = engine.display_to_screen(display)
