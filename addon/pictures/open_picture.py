@@ -30,7 +30,7 @@ def make_ready(context, picture) -> bool:
     """The views look at the picture, and drawing would go to its strokes. What show() of scene.py returns."""
     scene = context.scene
     free = settings.show(scene, picture)
-    settings.look(scene)
+    settings.look(scene, picture)
     select_strokes(context, picture)
     return free
 

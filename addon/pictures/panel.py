@@ -30,6 +30,7 @@ def _file(context, layout, picture) -> None:
     name = os.path.basename(picture.picture.replace("\\", "/")) or iface_("No file")
     size = iface_("{width} x {height} px").format(width=picture.picture_size[0], height=picture.picture_size[1])
     row.label(text=f"{name}, {size}" if picture.picture_size[0] else name, icon="IMAGE_DATA")
+    row.operator("stillwater.fit_view", text="", icon="HOME")
     row.operator("stillwater.replace_picture", text="", icon="FILE_FOLDER")
     row.operator("stillwater.reload_picture", text="", icon="FILE_REFRESH")
     if picture.missing:

@@ -2,7 +2,8 @@
 
 What is being drawn, and the tool settings to go back to, stand in the scene (properties/drawing.py). The artist may
 leave by Blender's own ways too (Tab, the mode menu, undo): a timer sees it and puts settings and status bar back. Undo
-brings back what stands in a scene, but never its tool settings: which scenes have ours is kept here besides.
+brings back what stands in a scene, but never its tool settings: which scenes have ours is kept here besides. Meanwhile
+the shelf of brushes, which lies over the lower part of the picture, is away; whoever wants another brush opens it.
 """
 
 import bpy
@@ -17,7 +18,7 @@ MODE = "PAINT_GREASE_PENCIL"
 INTERVAL = 0.25  # s
 TOOL = "stillwater.stroke"
 
-_before: dict[int, tuple] = {}  # by the session_uid of a scene that has our tool settings: its own
+_before: dict[int, tuple] = {}  # by the session_uid of a scene that has our tool settings: its own, and of the shelf
 _told: set[str] = set()  # workspaces whose status bar has our hint
 
 
@@ -39,6 +40,7 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     drawing = scene.stillwater.drawing
     drawing.role, drawing.picture_id, drawing.layer_id = role.key, picture.id, layer_id
     drawing.placement, drawing.lock_axis, drawing.auto_key = _settings(scene)
+    drawing.shelf = any(space.show_region_asset_shelf for space in _viewports(scene))
     bpy.ops.object.mode_set(mode=MODE)
     bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
     look_after()
@@ -150,11 +152,26 @@ def _settle(scene) -> None:
     """Gives a scene the settings for what is being drawn, or its own again."""
     drawing, uid = scene.stillwater.drawing, scene.session_uid
     if drawing.role:
-        _before[uid] = drawing.placement, drawing.lock_axis, drawing.auto_key
+        if uid not in _before:
+            _show_shelf(scene, False)
+        _before[uid] = (drawing.placement, drawing.lock_axis, drawing.auto_key), drawing.shelf
         keyed = roles.by_key(drawing.role).keyed
         _set(scene, "ORIGIN", "AXIS_Z", keyed and drawing.auto_key)  # across z: of the grease-pencil layer's own space
     elif uid in _before:
-        _set(scene, *_before.pop(uid))
+        settings, shelf = _before.pop(uid)
+        _set(scene, *settings)
+        _show_shelf(scene, shelf)
+
+
+def _viewports(scene) -> list:
+    """The 3D viewports that show the scene."""
+    shown = [window.screen for window in bpy.context.window_manager.windows if window.scene == scene]
+    return [area.spaces.active for screen in shown for area in screen.areas if area.type == "VIEW_3D"]
+
+
+def _show_shelf(scene, shown: bool) -> None:
+    for space in _viewports(scene):
+        space.show_region_asset_shelf = shown
 
 
 def _keep_last(part) -> None:

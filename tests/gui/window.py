@@ -6,6 +6,7 @@ file browser or a render has opened a window of its own, that one is meant.
 """
 
 import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -246,6 +247,23 @@ class Window:
         yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path))
         yield from self.key("RET")  # what it made of the path stands in the field for the name, which takes letters now
         yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
+
+    def save_file(self, path: Path, button: str):
+        """Types folder and name of a file into the open file browser, and clicks on the button that ends it."""
+        yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path.parent))
+        yield from self.key("A", ctrl=True)  # the field for the name takes letters now
+        yield from self.type(path.name)
+        yield from self.key("RET")
+        yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
+
+    def drop_file(self, path: Path, place: tuple[int, int]):
+        """Drops a file of a file manager's at a place."""
+        yield from self.move(place)
+        down = bpy.context.window_manager.windows[0].height - 1 - place[1]
+        command = [sys.executable, Path(__file__).with_name("drop.py"), path, str(place[0]), str(down)]
+        source = subprocess.Popen(command)
+        yield from self.until(lambda: source.poll() is not None, PATIENCE, "the file is still in the air")
+        assert source.returncode == 0, "the window does not take it"
 
     def _send(self, kind: str, value: str, **more):
         window = self._window
