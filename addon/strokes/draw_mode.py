@@ -40,9 +40,9 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     drawing = scene.stillwater.drawing
     drawing.role, drawing.picture_id, drawing.layer_id = role.key, picture.id, layer_id
     drawing.placement, drawing.lock_axis, drawing.auto_key = _settings(scene)
-    drawing.shelf = any(space.show_region_asset_shelf for space in _viewports(scene))
     bpy.ops.object.mode_set(mode=MODE)
     bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
+    drawing.shelf = _shows_shelf(scene)
     look_after()
 
 
@@ -167,6 +167,13 @@ def _viewports(scene) -> list:
     """The 3D viewports that show the scene."""
     shown = [window.screen for window in bpy.context.window_manager.windows if window.scene == scene]
     return [area.spaces.active for screen in shown for area in screen.areas if area.type == "VIEW_3D"]
+
+
+def _shows_shelf(scene) -> bool:
+    """Whether one of them shows the shelf of brushes, in draw mode. Blender makes it, and shows it, when first touched."""
+    for space in _viewports(scene):
+        space.show_region_asset_shelf = space.show_region_asset_shelf
+    return any(space.show_region_asset_shelf for space in _viewports(scene))
 
 
 def _show_shelf(scene, shown: bool) -> None:

@@ -12,7 +12,7 @@ from . import roles
 
 ATTRIBUTE = "stillwater"
 HALF = 24  # bits of an id in each number
-LINE = 0.0015  # of the picture's longer side: what a line is wider by on each side than the brush makes it
+LINE = 0.0018  # of the picture's longer side: what a line is wider by on each side than the brush makes it
 
 
 def data_of(picture):

@@ -192,6 +192,11 @@ def test_the_picture_is_shown(opened, panel):
     assert "stillwater.show_picture" not in shown["operators"] and "colour_space" in shown["properties"]
 
 
+def test_each_number_of_a_picture_has_one_place(opened, panel):
+    shown = panel()["properties"]
+    assert [shown.count(name) for name in ("colour_space", "seed", "loop", "compression")] == [1, 2, 1, 1]  # the wind's seed
+
+
 def test_a_missing_picture_is_shown_with_what_to_do(opened, panel):
     opened.missing = True
     shown = panel()
