@@ -154,12 +154,14 @@ def test_a_copied_scene_baked_by_a_render_survives_undo(scene, prefer, painted, 
     prefer("BAKE")
     bpy.data.scenes[name].stillwater.pictures[0].wind.speed = 9
     bpy.ops.ed.undo_push(message="Wind")
+    bpy.data.materials.new("Bark").use_fake_user = True
+    bpy.ops.ed.undo_push(message="Of something else: the scene is the same before and after")
     shown = still(bpy.data.scenes[name], 6)
-    for there in (True, True, False):
+    for there in (True, True, True, False):
         bpy.ops.ed.undo()
         assert (name in bpy.data.scenes) == there
         whole(tmp_path)
-    for _ in range(3):
+    for _ in range(4):
         bpy.ops.ed.redo()
         whole(tmp_path)
     np.testing.assert_array_equal(still(bpy.data.scenes[name], 6), shown)
