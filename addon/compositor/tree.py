@@ -1,6 +1,6 @@
 """The Stillwater node: a plain group of built-in nodes, fed by the frames on disk.
 
-    Image node (EXR sequence) -> group output: Image, Alpha, Flow, Matte
+    Image node (EXR sequence) -> as small as renders are (percentage.py) -> group output: Image, Alpha, Flow, Matte
     one more for each layer that the frames hold alone -> an output of its name
 
 Until there are frames, a second Image node gives the picture at rest.
@@ -16,7 +16,7 @@ import bpy
 
 from .. import versions
 from ..properties import names
-from . import frames
+from . import frames, percentage
 
 LAYER = "Stillwater"  # of the EXR files: the whole frame
 SOURCE = "Frames"  # name of the Image node that reads it; those of single layers are "Frames NAME"
@@ -40,7 +40,7 @@ def ensure(scene, picture):
             tree.interface.new_socket(name, in_out="OUTPUT", socket_type=kind)
         source, output = tree.nodes.new("CompositorNodeImage"), tree.nodes.new("NodeGroupOutput")
         source.name, source.label = SOURCE, SOURCE
-        output.location.x = source.location.x + 300
+        output.location.x = source.location.x + 600
         picture.tree = tree
     _rest(picture.tree, picture.image)
     return picture.tree
@@ -134,7 +134,7 @@ def _show_at_rest(tree) -> None:
     if still is not None and still.image is not None:
         output = _output(tree)
         for part, socket in AT_REST:
-            tree.links.new(still.outputs[part], output.inputs[socket])
+            percentage.link(tree, still.outputs[part], output.inputs[socket])
 
 
 def _output(tree):
@@ -241,7 +241,7 @@ def _link(tree, source, layer: str, pairs: list[tuple[str, str]]) -> None:
         source.image = None
         return
     for socket, part in pairs:
-        tree.links.new(source.outputs[part], output.inputs[socket])
+        percentage.link(tree, source.outputs[part], output.inputs[socket])
 
 
 def _release(tree, source) -> None:
