@@ -14,6 +14,11 @@ class _Picture(sidebar.OfPicture):
     bl_order = 0
     bl_options = set()
 
+    def draw_header_preset(self, context):
+        row = self.layout.row()
+        row.emboss = "NONE"
+        row.operator("stillwater.fit_view", text="", icon="HOME")
+
     def draw(self, context):
         layout, scene = self.layout, context.scene
         picture = scene.stillwater.active()
@@ -30,7 +35,6 @@ def _file(context, layout, picture) -> None:
     name = os.path.basename(picture.picture.replace("\\", "/")) or iface_("No file")
     size = iface_("{width} x {height} px").format(width=picture.picture_size[0], height=picture.picture_size[1])
     row.label(text=f"{name}, {size}" if picture.picture_size[0] else name, icon="IMAGE_DATA")
-    row.operator("stillwater.fit_view", text="", icon="HOME")
     row.operator("stillwater.replace_picture", text="", icon="FILE_FOLDER")
     row.operator("stillwater.reload_picture", text="", icon="FILE_REFRESH")
     if picture.missing:

@@ -94,6 +94,14 @@ def test_a_matte_shows_what_its_form_needs(picture, panel, form, names):
     assert shown == names
 
 
+@pytest.mark.parametrize("path, name", [("/a/b/tree.png", "tree.png"), ("C:\\a\\tree.png", "tree.png"),
+                                        ("//tree.png", "tree.png"), ("tree.png", ""), ("", "")])  # fmt: skip
+def test_the_name_of_a_file_is_to_be_read(extension, picture, panel, path, name):
+    layer = picture.layers[0]
+    layer.matte.form, layer.matte.file = "file", path
+    assert extension.ui.sidebar.file_of(path) == name and (not name or name in panel()["texts"])
+
+
 def test_the_bake_is_shown(extension, scene, picture, panel):
     assert "stillwater.bake" in panel()["operators"]
     state = extension.compositor.tree.ensure(scene, picture).stillwater
