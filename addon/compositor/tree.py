@@ -28,6 +28,7 @@ OUTPUTS = [
     ("Matte", "Matte", "NodeSocketFloat"),
 ]
 AT_REST = [("Image", "Image"), ("Alpha", "Alpha")]
+ROOM = 650  # between the node and the output: for an artist's own nodes; seen whole, it all lies above Blender's shelf
 
 
 def ensure(scene, picture):
@@ -326,10 +327,10 @@ def wire(scene, tree) -> None:
     shown = [node for node in nodes_of(scene, tree.stillwater.picture) if node.id_data == top]
     node = next(iter(shown), None) or add_node(scene, tree)
     output = versions.output_socket(top)
-    node.location = (output.node.location.x - 300, output.node.location.y)
+    node.location = (output.node.location.x - ROOM, output.node.location.y)
     top.links.new(node.outputs["Image"], output)
     for viewer in _viewers_of_ours(top) or ([top.nodes.new("CompositorNodeViewer")] if untouched else []):
-        viewer.location = (output.node.location.x, output.node.location.y - 150)
+        viewer.location = (output.node.location.x, output.node.location.y - 100)
         top.links.new(node.outputs["Image"], viewer.inputs["Image"])
     versions.use_compositor(scene)
 

@@ -251,10 +251,10 @@ class Window:
     def save_file(self, path: Path, button: str):
         """Types folder and name of a file into the open file browser, and clicks on the button that ends it."""
         yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path.parent))
-        yield from self.key("A", ctrl=True)  # the field for the name takes letters now
-        yield from self.type(path.name)
-        yield from self.key("RET")
-        yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
+        yield from self.key("RET")  # the field goes on taking letters
+        below = self.box("FILE_BROWSER", "EXECUTE")
+        yield from self.fill((below.x + below.width // 4, below.middle[1]), path.name)
+        yield from self.click(button, below)
 
     def drop_file(self, path: Path, place: tuple[int, int]):
         """Drops a file of a file manager's at a place."""
