@@ -12,7 +12,6 @@ from . import roles
 
 ATTRIBUTE = "stillwater"
 HALF = 24  # bits of an id in each number
-LINE = 0.0018  # of the picture's longer side: what a line is wider by on each side than the brush makes it
 
 
 def data_of(picture):
@@ -34,8 +33,6 @@ def ensure(picture, layer_id: str, role: roles.Role):
     gp = data_of(picture)
     made = gp.layers.new(_name(picture, layer_id, role), set_active=False)
     _lay_on_plane(made, picture.plane)
-    if role.one:  # its line says where and no more: it is seen well, whatever the brush
-        made.radius_offset = LINE * picture.plane.empty_display_size
     _mark(gp, made, layer_id, role)
     return made
 

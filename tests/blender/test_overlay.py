@@ -160,6 +160,11 @@ def test_a_sway_line_bends_with_its_layer(room):
     assert len(cross.ends) == 4 and {len(line.ends) == len(line.alphas) for line in (still, bent, cross)} == {True}
 
 
+def test_a_sway_line_that_was_not_drawn_yet_is_not_shown(room):
+    undrawn = {**TREE, "motion": {"type": "sway", "armature": [[0, 0], [0, 0]]}}
+    assert not list(room.shapes.sway_lines(subject(room, recipe(undrawn), "tree", Bending())))
+
+
 def test_what_is_hidden_or_elsewhere_is_not_drawn_and_the_active_one_is_stronger(room):
     hidden = TREE | {"visible": False}
     assert not list(room.shapes.sway_lines(subject(room, recipe(hidden, {"name": "sky"}))))

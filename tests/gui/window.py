@@ -227,6 +227,12 @@ class Window:
         self._send(name, "RELEASE", **held)
         yield from self.settle()
 
+    def stroke(self, name: str, **held: bool):
+        """Presses a key, as quickly as somebody who presses it again and again."""
+        self._send(name, "PRESS", **held)
+        self._send(name, "RELEASE", **held)
+        yield
+
     def type(self, text: str):
         """Types into the field that takes letters now."""
         for letter in text:
