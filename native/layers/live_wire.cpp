@@ -16,6 +16,8 @@ namespace {
 constexpr double fare = 0.03;
 // Anchors are so many times the reach apart, and no less than so many pixels.
 constexpr double anchor_spacing = 4, least_spacing = 24;
+// So far a point of the outline may be from where it was found, px.
+constexpr double slack = 0.2;
 
 Point between(const Point& a, const Point& b, double share) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
@@ -186,7 +188,7 @@ class LiveWire {
         for (size_t k = 0; k + 1 < ways[i].size(); ++k) outline.push_back({ways[i][k].x + 0.5, ways[i][k].y + 0.5});
       }
     }
-    return outline.size() < 3 ? samples_ : evened(evened(outline));
+    return outline.size() < 3 ? samples_ : simplified(evened(evened(outline)));
   }
 
   static std::vector<Point> evened(const std::vector<Point>& outline) {
@@ -196,6 +198,16 @@ class LiveWire {
       even[i] = between(outline[i], between(a, b, 0.5), 0.5);
     }
     return even;
+  }
+
+  // The same within `slack`, with fewer points.
+  static std::vector<Point> simplified(const std::vector<Point>& outline) {
+    std::vector<cv::Point2f> all, few;
+    for (const Point& point : outline) all.emplace_back(static_cast<float>(point.x), static_cast<float>(point.y));
+    cv::approxPolyDP(all, few, slack, true);
+    std::vector<Point> result;
+    for (const cv::Point2f& point : few) result.push_back({point.x, point.y});
+    return result.size() < 3 ? outline : result;
   }
 
   Plane edges_;
