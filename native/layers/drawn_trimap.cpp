@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "layers/live_wire.h"
+#include "layers/segment_distance.h"
 
 namespace stillwater {
 namespace {
@@ -47,7 +48,6 @@ Plane distance_to(const std::vector<Point>& outline, const cv::Size& picture, do
   parallel_rows(picture.height, 16, [&](int top, int bottom) {
     for (size_t i = 0; i < outline.size(); ++i) {
       const Point &a = outline[i], &b = outline[(i + 1) % outline.size()];
-      const double along_x = b.x - a.x, along_y = b.y - a.y, square = along_x * along_x + along_y * along_y;
       const auto range = [reach](double from, double to, int first, int last) {
         const double low = std::floor(std::min(from, to) - reach), high = std::ceil(std::max(from, to) + reach);
         return cv::Range(static_cast<int>(std::clamp<double>(low, first, last)),
@@ -56,10 +56,7 @@ Plane distance_to(const std::vector<Point>& outline, const cv::Size& picture, do
       const cv::Range rows = range(a.y, b.y, top, bottom), columns = range(a.x, b.x, 0, picture.width);
       for (int y = rows.start; y < rows.end; ++y)
         for (int x = columns.start; x < columns.end; ++x) {
-          const double px = x + 0.5 - a.x, py = y + 0.5 - a.y;
-          const double share = square > 0 ? std::clamp((px * along_x + py * along_y) / square, 0.0, 1.0) : 0;
-          const double away_x = px - share * along_x, away_y = py - share * along_y;
-          const auto far = static_cast<float>(std::sqrt(away_x * away_x + away_y * away_y));
+          const auto far = static_cast<float>(distance_to_segment(x + 0.5, y + 0.5, a.x, a.y, b.x, b.y).distance);
           distance(y, x) = std::min(distance(y, x), far);
         }
     }
