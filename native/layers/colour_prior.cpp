@@ -16,6 +16,8 @@ constexpr int grain = 16;
 constexpr int radius = 2;
 // Keeps the colours' covariance invertible (colour squared).
 constexpr double flat = 1e-5;
+// Less confidence than this is none.
+constexpr double negligible = 1e-3;
 
 double distance_between(const cv::Vec4f& a, const cv::Vec4f& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
@@ -68,10 +70,10 @@ MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourP
   each_sampled([&](int y, int x) {
     const double apart = distance_between(samples.foreground(y, x), samples.background(y, x)) / options.separation;
     const double fits = std::exp(-samples.misfit(y, x) / options.misfit);
+    const double trusted = std::min(1.0, apart * apart) * fits * trust(y, x);
+    if (trusted < negligible) return;
     const double rough = fit_affine_alpha(picture, prior.alpha, {x, y}, radius, flat).rest;
-    const double smooth = std::exp(-rough / options.roughness);
-    prior.weight(y, x) =
-        static_cast<float>(options.weight * std::min(1.0, apart * apart) * fits * smooth * trust(y, x));
+    prior.weight(y, x) = static_cast<float>(options.weight * trusted * std::exp(-rough / options.roughness));
   });
   return prior;
 }
