@@ -53,9 +53,11 @@ Plane trust_in_known(const Trimap& trimap, double crowd) {
 
 }  // namespace
 
-MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options) {
+MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options,
+                        const std::function<void(double)>& done) {
   const Plane trust = trust_in_known(trimap, options.crowd);
-  const ColourSamples samples = sample_colours(picture, trimap, cv::Mat_<unsigned char>(trust > 0), options.samples);
+  const cv::Mat_<unsigned char> trusted_at(trust > 0);
+  const ColourSamples samples = sample_colours(picture, trimap, trusted_at, options.samples, done);
   MattePrior prior{grey_of(trimap), Plane::zeros(trimap.size())};
   const auto each_sampled = [&](const auto& work) {
     parallel_rows(trimap.rows, grain, [&](int first, int last) {
