@@ -167,6 +167,7 @@ def settle() -> None:
     Frames that lie on disk now, whatever happened since the file was saved, are shown.
     """
     for tree in _trees():
+        _follow_frames(tree)
         if tree.stillwater.state == "running" and not running(tree):
             tree.stillwater.state = "cancelled"
             tree.stillwater.message = rpt_("Interrupted; the frames made so far are kept")
@@ -175,6 +176,17 @@ def settle() -> None:
             node.show(tree)
         elif node.changed_on_disk(tree):
             node.show(tree)
+
+
+def _follow_frames(tree) -> None:
+    """A step from before the file was saved for the first time knows the frames where they lay until then."""
+    state = tree.stillwater
+    if not bpy.data.filepath or not Path(state.folder).is_relative_to(places.root_of("")) or Path(state.folder).is_dir():
+        return
+    pictures = [picture for scene in bpy.data.scenes for picture in scene.stillwater.pictures if picture.tree == tree]
+    for picture in pictures[:1]:
+        state.folder = places.locate_in(places.frames_of(picture))(".")
+        node.show(tree)
 
 
 def before_undo() -> None:

@@ -191,7 +191,7 @@ def is_whole():
 
 
 def test_undo_goes_back_to_the_start_step_by_step(window):
-    yield from window.click("Layout", window.box("TOPBAR", "WINDOW"))
+    yield from window.click("Layout")
     yield from window.move(window.box("VIEW_3D").middle)
     steps = 0
     while picture() is not None:
