@@ -155,7 +155,7 @@ def test_a_wrong_recipe_is_a_sentence_and_the_next_is_prepared(server, scene, tm
 def test_a_request_is_cancelled_at_work_and_while_it_waits(server, large, scene):
     other = scene(lambda recipe: recipe.update(seed=8), "other.json")
     server.ask(prepare(1, large), prepare(2, other))
-    while server.hear("preparing", 1)[0]["what"] != "cutting the layers":
+    while not server.hear("preparing", 1)[0]["what"].startswith("cutting out"):
         pass
     asked = time.monotonic()
     server.ask({"id": 2, "do": "cancel"}, {"id": 1, "do": "cancel"})
@@ -188,7 +188,7 @@ def test_it_ends_with_its_standard_input(server, large):
 @pytest.mark.parametrize("how, code", [(signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)])
 def test_what_a_killed_one_left_is_no_obstacle(server, large, how, code):
     server.ask(prepare(1, large))
-    while server.hear("preparing", 1)[0]["what"] != "cutting the layers":
+    while not server.hear("preparing", 1)[0]["what"].startswith("cutting out"):
         pass
     server.process.send_signal(how)
     assert server.process.wait(2) == code

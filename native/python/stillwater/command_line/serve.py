@@ -3,7 +3,7 @@
 A request is a line of JSON on standard input, an answer one on standard output, with the request's `id`:
 
     {"id": 1, "do": "prepare", "recipe": "lake/recipe.json", "folder": "lake", "longest": 960}
-    {"id": 1, "event": "preparing", "share": 0.4, "what": "cutting the layers"}
+    {"id": 1, "event": "preparing", "share": 0.4, "what": "cutting out tree"}
     {"id": 1, "event": "done", "key": ..., "files": ...}        or "error" with a sentence, or "cancelled"
     {"id": 1, "do": "cancel"}
 

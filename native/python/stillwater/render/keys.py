@@ -33,21 +33,23 @@ def hashed(facts) -> str:
     return hashlib.blake2b(msgspec.json.encode(facts, order="deterministic"), digest_size=16).hexdigest()
 
 
+def layer_keys(recipe: Recipe, digests: dict[str, str]) -> list[str]:
+    """Of each layer cut out of the picture, front first: holds what it and those in front of it depend on.
+
+    `digests`: the hash of each file the recipe names.
+    """
+    key = hashed(["picture", digests[recipe.picture], recipe.colour_space, _versions("picture", "layers")])
+    keys = []
+    for i, layer in enumerate(recipe.layers):
+        fill = fill_facts(layer.fill, digests) if i + 1 < len(recipe.layers) else None  # nothing lies behind the last
+        key = hashed([key, matte_facts(layer.matte, digests), fill, layer.feather])
+        keys.append(key)
+    return keys
+
+
 def stack_key(recipe: Recipe, digests: dict[str, str]) -> str:
-    """Of the layers cut out of the picture. `digests`: the hash of each file the recipe names."""
-    layers = [
-        {"matte": matte_facts(layer.matte, digests), "fill": fill_facts(layer.fill, digests), "feather": layer.feather}
-        for layer in recipe.layers
-    ]
-    layers[-1]["fill"] = None  # nothing lies behind the last layer
-    return hashed(
-        {
-            "picture": digests[recipe.picture],
-            "colour_space": recipe.colour_space,
-            "layers": layers,
-            "engines": _versions("picture", "layers"),
-        }
-    )
+    """Of all layers cut out of the picture."""
+    return hashed(["stack", layer_keys(recipe, digests)[-1]])
 
 
 class FrameKeys:

@@ -14,9 +14,10 @@ from .. import _stillwater as engine
 from ..recipe import parse
 from . import preview
 from .cache import FOLDER, Cache, Prepared
-from .prepare import check_view, layer_images
+from .prepare import check_view
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
+from .stack import layer_images
 
 
 class Live:

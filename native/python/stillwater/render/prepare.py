@@ -1,4 +1,4 @@
-"""From the files of a recipe to the layers cut out of its picture: read, checked, peeled, kept in the cache."""
+"""The files of a recipe, read and checked."""
 
 import os
 from collections.abc import Callable, Generator, Iterator
@@ -10,9 +10,9 @@ from .. import _stillwater as engine
 from ..recipe import Document, Recipe, RecipeError
 from ..recipe.mattes import ExemplarFill, FileFill, FileMatte, LabelMatte
 from ..recipe.stochastic import Ripple
-from .cache import Cache, Prepared
+from .cache import Cache
 from .events import Preparing
-from .keys import stack_key
+from .keys import layer_keys, stack_key
 
 LARGEST_SIDE = 16384
 
@@ -34,6 +34,7 @@ class Sources:
     def __init__(self, document: Document, cache: Cache):
         self.document, self.recipe = document, document.recipe
         self.digests = digests_of(document, cache.digest)
+        self.layer_keys = layer_keys(self.recipe, self.digests)
         self.key = stack_key(self.recipe, self.digests)
         self.size = self._size()
 
@@ -142,39 +143,6 @@ def filled_otherwise(recipe: Recipe) -> Iterator[str]:
         yield f"{', '.join(places)}: exemplar filling has no engine yet; filled by a smooth push-pull"
 
 
-def cut(images: Images, recipe: Recipe, beat: Callable[[], None]) -> Generator[Preparing, None, Prepared]:
-    """The layers of a picture, front first (engine.peel), with whatever was said about the files.
-
-    `beat` is called again and again while it lasts.
-    """
-
-    def still_there(phase: str, share: float) -> bool:
-        beat()
-        return True
-
-    feathers = [layer.feather for layer in recipe.layers]
-    facts = {"warnings": images.warnings, "has_alpha": images.has_alpha}
-    stacks = {"colour": (images.picture, images.fills)}
-    if images.has_alpha:  # the picture's own alpha, cut like one more grey picture
-        fills = [_grey_alpha(fill) if isinstance(fill, np.ndarray) else fill for fill in images.fills]
-        stacks["alpha"] = (_grey_alpha(images.picture), fills)
-    arrays = {}
-    for part, (name, (picture, fills)) in enumerate(stacks.items()):
-        yield Preparing(0.4 + 0.4 * part / len(stacks), "cutting the layers")
-        layers = engine.peel(picture, mattes=images.mattes, fills=fills, feathers=feathers, progress=still_there)
-        facts[name] = [list(layer.box) for layer in layers]
-        arrays |= {f"{name}{i}": layer.pixels for i, layer in enumerate(layers) if min(layer.box[2:]) > 0}
-    return Prepared(arrays, facts)
-
-
-def layer_images(stack: Prepared, name: str) -> list:
-    """The layers of one part of a stack ("colour", "alpha") as the engine wants them."""
-    nothing = np.zeros((0, 0, 4), np.float32)
-    return [
-        engine.LayerImage(stack.arrays.get(f"{name}{i}", nothing), tuple(box)) for i, box in enumerate(stack.facts[name])
-    ]
-
-
 def check_view(recipe: Recipe, boxes: list) -> None:
     """Throws RecipeError for a water layer that lies wholly above the horizon. `boxes`: x, y, width, height a layer."""
     view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
@@ -200,12 +168,6 @@ def _box(matte: np.ndarray) -> tuple[int, int, int, int]:
     if not rows.size:
         return 0, 0, 0, 0
     return int(columns[0]), int(rows[0]), int(columns[-1] - columns[0] + 1), int(rows[-1] - rows[0] + 1)
-
-
-def _grey_alpha(picture: np.ndarray) -> np.ndarray:
-    grey = np.repeat(picture[..., 3:], 4, axis=2)
-    grey[..., 3] = 1
-    return grey
 
 
 def _files(recipe: Recipe) -> Iterator[tuple[str, str]]:

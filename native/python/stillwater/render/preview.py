@@ -18,8 +18,9 @@ from .errors import Failed
 from .events import Event, Preparing, Ready, Warn
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
-from .prepare import Sources, cut, digests_of, filled_otherwise, layer_images
+from .prepare import Sources, digests_of, filled_otherwise
 from .resolve import Timeline
+from .stack import cut, find_stack, forget_stack, layer_images
 
 PARTS = ("colour", "alpha")
 
@@ -85,7 +86,7 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
 
 def forget(document: Document, cache: Cache) -> None:
     """Removes the layers of a recipe as it is now, at every size. Throws RecipeError, OSError."""
-    cache.forget(Sources(document, cache).key)
+    forget_stack(Sources(document, cache), cache)
 
 
 def _key(stack: str, longest: int) -> str:
@@ -103,16 +104,15 @@ def _file(path: Path, digest: str) -> list:
 
 def _stack(document: Document, cache: Cache, sources: Sources, beat: Callable) -> Generator[Event, None, Prepared]:
     """The layers as they were cut; a bake has the same."""
-    stack = cache.find(sources.key)
+    stack = find_stack(cache, sources.key)
     if stack is not None:
         return stack
     with cache.lock(sources.key, beat):
-        stack = cache.find(sources.key)
+        stack = find_stack(cache, sources.key)
         if stack is None:
             images = yield from sources.read()
             yield from map(Warn, images.warnings)
-            stack = yield from cut(images, document.recipe, beat)
-            stack = cache.store(sources.key, stack)
+            stack = yield from cut(sources, images, cache, beat)
     return stack
 
 
