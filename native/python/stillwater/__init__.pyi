@@ -5,6 +5,9 @@ from .images import srgb_to_linear as srgb_to_linear
 from .images import write as write
 from .layers import displace as displace
 from .layers import over as over
+from .matting import foreground as foreground
+from .matting import matte as matte
+from .matting import trimap as trimap
 from .motion import Ripple as Ripple
 from .motion import Wind as Wind
 from .motion import bob as bob

@@ -1,0 +1,134 @@
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "bindings/arrays.h"
+#include "bindings/rooms.h"
+#include "layers/closed_form.h"
+#include "layers/drawn_trimap.h"
+#include "layers/foreground.h"
+#include "layers/matte.h"
+
+namespace stillwater {
+namespace {
+
+using NoGil = py::gil_scoped_release;
+
+// The system's rows, in the order of the unknown pixels: (pixel, other pixel, coefficient) and the right-hand side.
+py::tuple laplacian_arrays(const FloatArray& picture, const FloatArray& trimap, double epsilon) {
+  const MattingSystem system =
+      matting_laplacian(as_image<cv::Vec4f>(picture, "picture"), trimap_from_grey(as_image<float>(trimap, "trimap")), epsilon);
+  std::vector<int> rows, columns, pixels;
+  std::vector<double> values, right;
+  const SparseGrid& grid = system.grid;
+  for (int y = 0; y < grid.height; ++y)
+    for (int node = grid.row[y]; node < grid.row[y + 1]; ++node) {
+      const int pixel = y * grid.width + grid.column[node];
+      pixels.push_back(pixel);
+      right.push_back(system.right[grid.entry(node)]);
+      for (int k = 0; k < 25; ++k)
+        if (const double value = system.coefficients[static_cast<size_t>(node) * 25 + k]; value != 0) {
+          rows.push_back(pixel);
+          columns.push_back(pixel + (k / 5 - 2) * grid.width + k % 5 - 2);
+          values.push_back(value);
+        }
+    }
+  return py::make_tuple(py::cast(rows), py::cast(columns), py::cast(values), py::cast(pixels), py::cast(right));
+}
+
+py::tuple closed_form_arrays(const FloatArray& picture, const FloatArray& trimap, double epsilon, double tolerance,
+                             const std::optional<FloatArray>& prior_alpha, const std::optional<FloatArray>& prior_weight,
+                             int spacing) {
+  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Trimap labels = trimap_from_grey(as_image<float>(trimap, "trimap"));
+  ClosedFormOptions options{.epsilon = epsilon, .tolerance = tolerance, .spacing = spacing};
+  if (prior_alpha && prior_weight)
+    options.prior = {as_image<float>(*prior_alpha, "prior_alpha"), as_image<float>(*prior_weight, "prior_weight")};
+  ClosedFormMatte matte;
+  {
+    const NoGil released;
+    matte = closed_form_matte(image, labels, options);
+  }
+  return py::make_tuple(as_array(matte.alpha), matte.iterations);
+}
+
+Stroke stroke_of(const std::vector<std::array<double, 3>>& points, double width) {
+  Stroke stroke{{}, width};
+  for (const auto& [x, y, pressure] : points) stroke.points.push_back({x, y, pressure});
+  return stroke;
+}
+
+py::array_t<float> scribbled(const std::array<int, 2>& size, const std::vector<Stroke>& foreground,
+                             const std::vector<Stroke>& background) {
+  return as_array(grey_of(trimap_from_scribbles(cv::Size(size[0], size[1]), {foreground, background})));
+}
+
+py::array_t<float> lassoed(const FloatArray& picture, const std::vector<std::array<double, 2>>& outline, double feather,
+                           double snap) {
+  Lasso lasso{{}, feather, snap};
+  for (const auto& [x, y] : outline) lasso.outline.push_back({x, y});
+  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  Plane trimap;
+  {
+    const NoGil released;
+    trimap = grey_of(trimap_from_lasso(image, lasso));
+  }
+  return as_array(trimap);
+}
+
+py::array_t<float> checked_trimap(const FloatArray& grey) {
+  return as_array(grey_of(trimap_from_grey(as_image<float>(grey, "trimap"))));
+}
+
+py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trimap, const MatteOptions& options,
+                               const Progress::Listener& progress) {
+  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Trimap labels = trimap_from_grey(as_image<float>(trimap, "trimap"));
+  Plane alpha;
+  {
+    const NoGil released;
+    alpha = matte(image, labels, options, Progress(progress));
+  }
+  return as_array(alpha);
+}
+
+py::tuple foreground_arrays(const FloatArray& picture, const FloatArray& alpha, const ForegroundOptions& options,
+                            const Progress::Listener& progress) {
+  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Plane matte = as_image<float>(alpha, "alpha");
+  ForegroundAndBackground colours;
+  {
+    const NoGil released;
+    colours = foreground_and_background(image, matte, options, Progress(progress));
+  }
+  return py::make_tuple(as_array(colours.foreground), as_array(colours.background));
+}
+
+}  // namespace
+
+void bind_matting(py::module_& module) {
+  py::enum_<MattingMethod>(module, "MattingMethod")
+      .value("closed_form", MattingMethod::closed_form)
+      .value("bayesian", MattingMethod::bayesian);
+  py::class_<MatteOptions>(module, "MatteOptions").def(py::init<>()).def_readwrite("method", &MatteOptions::method);
+  py::class_<ForegroundOptions>(module, "ForegroundOptions")
+      .def(py::init<>())
+      .def_readwrite("regularization", &ForegroundOptions::regularization)
+      .def_readwrite("gradient_weight", &ForegroundOptions::gradient_weight)
+      .def_readwrite("small_iterations", &ForegroundOptions::small_iterations)
+      .def_readwrite("big_iterations", &ForegroundOptions::big_iterations)
+      .def_readwrite("small_size", &ForegroundOptions::small_size);
+  py::class_<Stroke>(module, "Stroke").def(py::init(&stroke_of), py::arg("points"), py::arg("width"));
+  module.def("trimap_from_scribbles", &scribbled, py::arg("size"), py::arg("foreground"), py::arg("background"));
+  module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"), py::arg("snap"));
+  module.def("trimap_from_grey", &checked_trimap, py::arg("grey"));
+  module.def("matting_laplacian", &laplacian_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon"));
+  module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
+             py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
+             py::arg("spacing") = 6);
+  module.def("matte", &matte_array, py::arg("picture"), py::arg("trimap"), py::arg("options") = MatteOptions(),
+             py::arg("progress") = Progress::Listener());
+  module.def("foreground_and_background", &foreground_arrays, py::arg("picture"), py::arg("alpha"),
+             py::arg("options") = ForegroundOptions(), py::arg("progress") = Progress::Listener());
+}
+
+}  // namespace stillwater
