@@ -19,6 +19,7 @@ _HOMES = {
     "parse": "recipe",
     "displace": "layers",
     "over": "layers",
+    "inpaint": "inpainting",
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",
