@@ -11,7 +11,9 @@
 namespace stillwater {
 namespace {
 
-constexpr float screen = 0.01f;
+constexpr float screen = 0.003f;
+// A difference of colours (its square) that is a step of tone more than an edge.
+constexpr float step_of_tone = 0.01f;
 constexpr int most_rounds = 400;
 constexpr double good_enough = 1e-4;  // of the residual at the start
 constexpr int grain = 4096;
@@ -19,7 +21,15 @@ constexpr int grain = 4096;
 using Pixels = std::vector<cv::Vec4f>;
 using Sums = std::array<double, 4>;
 
+float squared(const cv::Vec4f& v) { return v.dot(v); }
+
 const std::array<cv::Point, 4> steps{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+
+// To an unknown of the equation, or to none.
+struct Link {
+  int to = -1;
+  float weight = 0;
+};
 
 class Equation {
  public:
@@ -81,20 +91,28 @@ class Equation {
     float diagonal = screen;
     for (size_t k = 0; k < steps.size(); ++k) {
       const cv::Point q = p + steps[k];
-      neighbours_[i][k] = -1;
+      neighbours_[i][k] = {};
       if (!inside.contains(q)) continue;
       const bool open = hole(q) != 0;
       const cv::Point theirs = open ? shift(shifts, q) : cv::Point();
-      // The change from p to q, by our shift and, where q is filled, by theirs.
+      // The change from p to q, by our shift and, where q is filled, by theirs; and how unlike they are.
       cv::Vec4f change(0, 0, 0, 0);
       int views = 0;
-      if (seen(q + ours, hole)) change += colour(q + ours) - colour(p + ours), ++views;
-      if (open && seen(p + theirs, hole)) change += colour(q + theirs) - colour(p + theirs), ++views;
+      float unlike = 0;
+      if (seen(q + ours, hole)) {
+        change += colour(q + ours) - colour(p + ours), ++views;
+        unlike = std::max(unlike, squared(colour(q + ours) - colour(q)));
+      }
+      if (open && seen(p + theirs, hole)) {
+        change += colour(q + theirs) - colour(p + theirs), ++views;
+        unlike = std::max(unlike, squared(colour(p + theirs) - colour(p)));
+      }
       if (views == 0) continue;
-      right -= change * (1.0f / static_cast<float>(views));
-      diagonal += 1;
-      if (open) neighbours_[i][k] = number_(q);
-      else right += colour(q);
+      const float weight = step_of_tone / (step_of_tone + unlike);
+      right -= change * (weight / static_cast<float>(views));
+      diagonal += weight;
+      if (open) neighbours_[i][k] = {number_(q), weight};
+      else right += weight * colour(q);
     }
     right_[i] = right;
     diagonal_[i] = diagonal;
@@ -109,8 +127,8 @@ class Equation {
   void apply(const Pixels& from, Pixels& to) const {
     each([&](int i) {
       cv::Vec4f sum = diagonal_[i] * from[i];
-      for (const int n : neighbours_[i])
-        if (n >= 0) sum -= from[n];
+      for (const Link& link : neighbours_[i])
+        if (link.to >= 0) sum -= link.weight * from[link.to];
       to[i] = sum;
     });
   }
@@ -134,7 +152,7 @@ class Equation {
   cv::Size size_;
   cv::Mat_<int> number_;
   std::vector<cv::Point> places_;
-  std::vector<std::array<int, 4>> neighbours_;
+  std::vector<std::array<Link, 4>> neighbours_;
   std::vector<float> diagonal_;
   Pixels right_;
 };

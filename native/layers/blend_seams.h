@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "layers/shift_map.h"
+#include "layers/seam_cost.h"
 
 namespace stillwater {
 

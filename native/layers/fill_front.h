@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "layers/inpaint_level.h"
-#include "layers/shift_map.h"
+#include "layers/seam_cost.h"
 
 namespace stillwater {
 

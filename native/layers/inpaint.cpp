@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <map>
 #include <vector>
 
 #include "core/check.h"
@@ -11,6 +12,8 @@
 #include "core/parallel.h"
 #include "layers/blend_seams.h"
 #include "layers/fill_front.h"
+#include "layers/frequent_shifts.h"
+#include "layers/graph_cut_shifts.h"
 #include "layers/inpaint_level.h"
 #include "layers/shift_map.h"
 #include "patches/patch_distance.h"
@@ -21,8 +24,10 @@ namespace stillwater {
 namespace {
 
 constexpr int least_patch = 3;
-constexpr int coarse_rounds = 6, fine_rounds = 2;  // of search and vote
+const int coarse_rounds = getenv("CR") ? atoi(getenv("CR")) : 6, fine_rounds = getenv("FR") ? atoi(getenv("FR")) : 2;  // of search and vote
 constexpr int seam_rounds = 30;
+constexpr double most_cut = 10000;
+const size_t most_candidates = getenv("MC") ? atoi(getenv("MC")) : 64, most_frequent = getenv("MF") ? atoi(getenv("MF")) : 60;
 // How much less a patch counts for each pixel that it lies deeper in the hole (Wexler et al., 3.1).
 constexpr double deeper = 1.3;
 
@@ -129,6 +134,20 @@ void refresh_bytes(InpaintLevel& level) {
       if (level.hole(y, x)) level.bytes(y, x) = as_bytes(level.colour(y, x));
 }
 
+// The shifts that most pixels have, most first.
+std::vector<cv::Vec2s> most_used(const ShiftMap& shifts, const Mask& hole, size_t most) {
+  std::map<std::pair<int, int>, int> count;
+  for (int y = 0; y < hole.rows; ++y)
+    for (int x = 0; x < hole.cols; ++x)
+      if (hole(y, x)) ++count[{shifts(y, x)[0], shifts(y, x)[1]}];
+  std::vector<std::pair<std::pair<int, int>, int>> all(count.begin(), count.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<cv::Vec2s> used;
+  for (size_t i = 0; i < std::min(most, all.size()); ++i)
+    used.push_back({static_cast<short>(all[i].first.first), static_cast<short>(all[i].first.second)});
+  return used;
+}
+
 // A field that begins with the shifts of the pixels at the patches' centres, or of the nearest pixel of the hole.
 MatchField field_of(const ShiftMap& shifts, const InpaintLevel& level, int patch) {
   MatchField field = MatchField::of(centres_that_touch(level.hole, patch));
@@ -162,6 +181,10 @@ class Filling {
         vote(field, parameters_.patch, weights_of(field, levels_[i].hole), levels_[i].colour, levels_[i].hole, levels_[i].colour);
         refresh_bytes(levels_[i]);
       }
+      if (i == structure_level()) {
+        search(i, rounds(i), field);
+        field = cut_anew(levels_[i], field);
+      }
       if (i == 0) break;
       field = finer(field, levels_[i - 1]);
     }
@@ -179,10 +202,42 @@ class Filling {
     return sum;
   }
 
+  void search(size_t, int round, MatchField& field, InpaintLevel& level) {
+    patch_match(level.bytes, level.bytes, level.centres, field, {.patch = parameters_.patch, .rounds = 1, .radius = level.radius, .seed = parameters_.seed + static_cast<std::uint64_t>(round)});
+  }
+
   void search(size_t level, int round, MatchField& field) {
     const PatchSearch how{.patch = parameters_.patch, .rounds = 2, .radius = levels_[level].radius,
                           .seed = parameters_.seed + 1000 * level + static_cast<std::uint64_t>(round)};
     patch_match(levels_[level].bytes, levels_[level].bytes, levels_[level].centres, field, how, course_.part(work(level)));
+  }
+
+  // The finest level on which cuts through the whole hole take little time.
+  size_t structure_level() const {
+    for (size_t i = 0; i < levels_.size(); ++i)
+      if (work(i) <= most_cut) return i;
+    return levels_.size() - 1;
+  }
+
+  MatchField cut_anew(InpaintLevel& level, const MatchField& found) {
+    const SeamCost cost(level);
+    ShiftMap shifts = agreed_shifts(found, weights_of(found, level.hole), parameters_.patch, level.hole);
+    InpaintLevel other = level;
+    other.bytes = PatchImage(level.colour);
+    ShiftMap first = fill_front(other, {.patch = parameters_.patch, .seed = parameters_.seed}, {});
+    std::vector<cv::Vec2s> candidates = most_used(shifts, level.hole, most_candidates), more = most_used(first, level.hole, most_candidates);
+    candidates.insert(candidates.end(), more.begin(), more.end());
+    const std::vector<cv::Vec2s> often = frequent_shifts(level, {.patch = parameters_.patch, .seed = parameters_.seed, .most = most_frequent});
+    candidates.insert(candidates.end(), often.begin(), often.end());
+    const auto e0 = seam_energy(cost, level.hole, shifts), e1 = seam_energy(cost, level.hole, first);
+    if (e1 < e0) shifts = first;
+    expand_shifts(cost, level.hole, candidates, 2, shifts);
+    if (getenv("DBG")) fprintf(stderr, "level %dx%d hole %d em %ld greedy %ld cut %ld (%zu)\n", level.hole.cols, level.hole.rows, cv::countNonZero(level.hole), (long)e0, (long)e1, (long)seam_energy(cost, level.hole, shifts), candidates.size());
+    copy_shifted(shifts, level.hole, level.colour);
+    refresh_bytes(level);
+    MatchField field = field_of(shifts, level, parameters_.patch);
+    search(0, 99, field, level);
+    return field;
   }
 
   // The next level begins with what the field says there, sharp.
@@ -226,7 +281,7 @@ Rgba inpaint(const Rgba& picture, const Plane& hole, const InpaintParameters& pa
   progress.phase("blending the seams", 0.1);
   InpaintLevel& finest = levels[0];
   ShiftMap shifts = agreed_shifts(field, weights_of(field, finest.hole), parameters.patch, finest.hole);
-  settle_seams(finest, allowed_pixels(open, parameters), seam_rounds, shifts, [&](double share) { progress.at(0.5 * share); });
+  settle_seams(SeamCost(finest), finest.hole, seam_rounds, shifts, [&](double share) { progress.at(0.5 * share); });
   copy_shifted(shifts, finest.hole, finest.colour);
   if (parameters.blend) blend_seams(shifts, finest.hole, finest.colour, [&](double share) { progress.at(0.5 + 0.5 * share); });
   return finest.colour;

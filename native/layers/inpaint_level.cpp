@@ -14,11 +14,11 @@ constexpr double patches_across = 1.5;
 constexpr int least_patches = 4, least_sources = 64;
 
 // Half as large: (1 3 3 1) / 8 along both axes, of what is known.
-void halve(const InpaintLevel& fine, const Mask& fine_allowed, InpaintLevel& coarse, Mask& allowed) {
+void halve(const InpaintLevel& fine, InpaintLevel& coarse) {
   const cv::Size size((fine.hole.cols + 1) / 2, (fine.hole.rows + 1) / 2);
   coarse.colour.create(size);
   coarse.hole.create(size);
-  allowed.create(size);
+  coarse.allowed.create(size);
   constexpr float weights[4] = {1, 3, 3, 1};
   parallel_rows(size.height, 16, [&](int first, int last) {
     for (int y = first; y < last; ++y)
@@ -31,7 +31,7 @@ void halve(const InpaintLevel& fine, const Mask& fine_allowed, InpaintLevel& coa
             const int row = 2 * y - 1 + j, column = 2 * x - 1 + i;
             if (row < 0 || column < 0 || row >= fine.hole.rows || column >= fine.hole.cols) continue;
             const bool is_open = fine.hole(row, column) != 0, covered = i % 3 != 0 && j % 3 != 0;
-            if (covered) ++inside, open += is_open, barred += fine_allowed(row, column) == 0;
+            if (covered) ++inside, open += is_open, barred += fine.allowed(row, column) == 0;
             if (is_open) continue;
             const float weight = weights[j] * weights[i];
             sum += weight * fine.colour(row, column);
@@ -39,7 +39,7 @@ void halve(const InpaintLevel& fine, const Mask& fine_allowed, InpaintLevel& coa
           }
         coarse.colour(y, x) = known > 0 ? sum * (1 / known) : cv::Vec4f(0, 0, 0, 0);
         coarse.hole(y, x) = 2 * open >= inside ? 255 : 0;
-        allowed(y, x) = barred > 0 ? 0 : 255;
+        coarse.allowed(y, x) = barred > 0 ? 0 : 255;
       }
   });
 }
@@ -64,17 +64,14 @@ bool usable(const InpaintLevel& level, int patch) {
 
 std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch, double radius) {
   std::vector<InpaintLevel> levels(1);
-  levels[0] = {picture.clone(), {}, hole, patch_centres(allowed, patch), radius};
-  Mask from = allowed;
+  levels[0] = {picture.clone(), {}, hole, allowed, patch_centres(allowed, patch), radius};
   while (2 * half_width(levels.back().hole) > patches_across * patch) {
     InpaintLevel coarse;
-    Mask coarse_from;
-    halve(levels.back(), from, coarse, coarse_from);
-    coarse.centres = patch_centres(coarse_from, patch);
+    halve(levels.back(), coarse);
+    coarse.centres = patch_centres(coarse.allowed, patch);
     coarse.radius = levels.back().radius / 2;
     if (!usable(coarse, patch)) break;
     levels.push_back(coarse);
-    from = coarse_from;
   }
   for (InpaintLevel& level : levels) level.bytes = PatchImage(level.colour);
   return levels;

@@ -11,6 +11,7 @@ struct InpaintLevel {
   Rgba colour;        ///< known pixels, and the filling so far
   PatchImage bytes;   ///< the same, as patches are compared
   Mask hole;          ///< to be filled (not 0)
+  Mask allowed;       ///< what may be copied (not 0)
   Mask centres;       ///< where a patch that is copied from may have its centre (not 0)
   double radius = 0;  ///< how far from a patch; 0 = anywhere
 };

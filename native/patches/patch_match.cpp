@@ -34,7 +34,7 @@ class Search {
          const PatchSearch& parameters)
       : distance_(target, source, parameters.patch), centres_(centres), field_(field), parameters_(parameters),
         squared_radius_(parameters.radius > 0 ? parameters.radius * parameters.radius : 1e18),
-        longest_reach_(std::max(source.width(), source.height())) {
+        squared_nearest_(parameters.nearest * parameters.nearest), longest_reach_(std::max(source.width(), source.height())) {
     if (parameters.radius > 0) longest_reach_ = std::min(longest_reach_, static_cast<int>(parameters.radius));
     for (int y = 0; y < field.area.height; y += tile_side)
       for (int x = 0; x < field.area.width; x += tile_side) {
@@ -110,7 +110,8 @@ class Search {
     const cv::Point target = cv::Point(x, y) + field_.area.tl(), source = target + cv::Point(offset[0], offset[1]);
     if (source.x < 0 || source.y < 0 || source.x >= centres_.cols || source.y >= centres_.rows || !centres_(source))
       return;
-    if (static_cast<double>(offset[0]) * offset[0] + static_cast<double>(offset[1]) * offset[1] > squared_radius_) return;
+    const double apart = static_cast<double>(offset[0]) * offset[0] + static_cast<double>(offset[1]) * offset[1];
+    if (apart > squared_radius_ || apart < squared_nearest_) return;
     int& best = field_.distance(y, x);
     if (best != MatchField::unmatched && offset == field_.offset(y, x)) return;
     const int distance = distance_(target, source, best);
@@ -121,7 +122,7 @@ class Search {
   const Mask& centres_;
   MatchField& field_;
   PatchSearch parameters_;
-  double squared_radius_;
+  double squared_radius_, squared_nearest_;
   int longest_reach_;
   std::vector<cv::Rect> tiles_;
   cv::Mat_<cv::Vec2s> before_;
