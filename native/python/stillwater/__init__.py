@@ -22,6 +22,7 @@ _HOMES = {
     "trimap": "matting",
     "matte": "matting",
     "foreground": "matting",
+    "inpaint": "inpainting",
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",
