@@ -12,7 +12,7 @@ namespace stillwater {
 namespace {
 
 using ExactArray = py::array_t<float, py::array::c_style>;
-using FillGiven = std::variant<Fill, FloatArray>;
+using FillGiven = std::variant<Fill, ExemplarFill, FloatArray>;
 using MatteGiven = std::variant<MatteInBox, FloatArray>;
 using Box = std::array<int, 4>;  // x, y, width, height
 
@@ -44,8 +44,20 @@ PeelLayer layer_of(const std::optional<MatteGiven>& matte, const FillGiven& fill
     else layer.matte = std::get<MatteInBox>(*matte);
   }
   if (const auto* painted = std::get_if<FloatArray>(&fill)) layer.fill = as_image<cv::Vec4f>(*painted, place + ".fill");
+  else if (const auto* exemplar = std::get_if<ExemplarFill>(&fill)) layer.fill = *exemplar;
   else layer.fill = std::get<Fill>(fill);
   return layer;
+}
+
+TouchUp touch_up_of(const FloatArray& region, std::optional<double> radius, std::uint64_t seed) {
+  return {as_image<float>(region, "region").clone(), radius, seed};
+}
+
+ExemplarFill exemplar_of(int patch, std::optional<double> radius, std::uint64_t seed, int grow,
+                         const std::optional<FloatArray>& source, const std::vector<TouchUp>& touch_ups) {
+  ExemplarFill fill{{.patch = patch, .radius = radius, .seed = seed, .grow = grow}, touch_ups};
+  if (source) fill.search.source = as_image<float>(*source, "source").clone();
+  return fill;
 }
 
 std::vector<LayerImage> peel_arrays(const FloatArray& picture, const std::vector<std::optional<MatteGiven>>& mattes,
@@ -62,10 +74,10 @@ std::vector<LayerImage> peel_arrays(const FloatArray& picture, const std::vector
 }
 
 std::pair<LayerImage, Behind> take(Peeling& peeling, const MatteGiven& matte, const FillGiven& fill, double feather,
-                                   const std::string& name) {
+                                   const std::string& name, const Progress::Listener& progress) {
   const PeelLayer layer = layer_of(matte, fill, feather, name);
   const py::gil_scoped_release release;
-  auto [taken, behind] = peeling.take(layer, name);
+  auto [taken, behind] = peeling.take(layer, name, Progress(progress));
   return {taken, behind};
 }
 
@@ -73,6 +85,11 @@ std::pair<LayerImage, Behind> take(Peeling& peeling, const MatteGiven& matte, co
 
 void bind_peel(py::module_& module) {
   py::enum_<Fill>(module, "Fill").value("push_pull", Fill::push_pull).value("none", Fill::none);
+  py::class_<TouchUp>(module, "TouchUp")
+      .def(py::init(&touch_up_of), py::arg("region"), py::arg("radius"), py::arg("seed"));
+  py::class_<ExemplarFill>(module, "ExemplarFill")
+      .def(py::init(&exemplar_of), py::kw_only(), py::arg("patch") = 9, py::arg("radius") = std::nullopt, py::arg("seed") = 0,
+           py::arg("grow") = 2, py::arg("source") = std::nullopt, py::arg("touch_ups") = std::vector<TouchUp>());
   py::class_<LayerImage>(module, "LayerImage")
       .def(py::init(&part_of_picture<LayerImage, cv::Vec4f>), py::arg("pixels").noconvert(), py::arg("box"),
            py::keep_alive<1, 2>())
@@ -93,7 +110,8 @@ void bind_peel(py::module_& module) {
   py::class_<Peeling>(module, "Peeling")
       .def(py::init([](const FloatArray& picture) { return Peeling(as_image<cv::Vec4f>(picture, "picture")); }),
            py::arg("picture"))
-      .def("take", &take, py::arg("matte"), py::arg("fill"), py::arg("feather") = 0.0, py::arg("name") = "layer")
+      .def("take", &take, py::arg("matte"), py::arg("fill"), py::arg("feather") = 0.0, py::arg("name") = "layer",
+           py::arg("progress") = Progress::Listener())
       .def("leave", &Peeling::leave, py::arg("behind"), py::call_guard<py::gil_scoped_release>())
       .def("left", [](const Peeling& peeling) { return as_array(peeling.left().clone()); })
       .def("rest", &Peeling::rest, py::call_guard<py::gil_scoped_release>());

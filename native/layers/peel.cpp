@@ -12,31 +12,10 @@
 namespace stillwater {
 namespace {
 
-constexpr int grain = 32;
-
-// A hole is filled from what lies at least so far from the matte, px: mattes end a little inside of what they cut out.
-constexpr int fringe = 3;
-// What a fringe still says where nothing better is near.
-constexpr float fringe_share = 1e-3f;
-
 // A matte goes on behind what hides it where it is likely; what is left of it further away fades out.
 float without_tail(float likely) {
   constexpr float unlikely = 0.25f;
   return likely < 2 * unlikely ? std::max(0.0f, 2 * (likely - unlikely)) : likely;
-}
-
-template <class Work>
-void each_pixel(const cv::Size& size, const Work& work) {
-  parallel_rows(size.height, grain, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < size.width; ++x) work(y, x);
-  });
-}
-
-// Confidence in a pixel of which `other` belongs to something else: falls off quickly.
-float purity(float other) {
-  const float pure = 1 - other, square = pure * pure, fourth = square * square;
-  return fourth * fourth;
 }
 
 // The box of what is above 0, grown so that a filling finds its surroundings.
@@ -46,21 +25,6 @@ cv::Rect surroundings(const Plane& region) {
   const int margin = std::max(32, std::max(box.width, box.height) / 4);
   return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
          cv::Rect(0, 0, region.cols, region.rows);
-}
-
-// `colour`, each pixel known as far as `confidence(y, x)` says, filled; `colour` itself where nothing is known.
-template <class Confidence>
-Rgba filled(const Rgba& colour, const Confidence& confidence) {
-  Rgba known(colour.size());
-  each_pixel(colour.size(), [&](int y, int x) {
-    const float share = confidence(y, x);
-    const cv::Vec4f& pixel = colour(y, x);
-    known(y, x) = {pixel[0] * share, pixel[1] * share, pixel[2] * share, share};
-  });
-  const bool nothing = std::all_of(known.begin(), known.end(), [](const cv::Vec4f& pixel) { return pixel[3] <= 0; });
-  if (nothing) return colour.clone();
-  fill_by_push_pull(known);
-  return known;
 }
 
 // A copy, of the picture's size.
@@ -86,30 +50,14 @@ void complete(Plane& matte, const Plane& hidden) {
   Plane part = matte(box);
   const Plane cover = hidden(box);
   cv::Mat_<cv::Vec2f> known(part.size());
-  each_pixel(part.size(), [&](int y, int x) {
+  parallel_pixels(part.size(), [&](int y, int x) {
     const float share = purity(cover(y, x));
     known(y, x) = {part(y, x) * share, share};
   });
   if (std::all_of(known.begin(), known.end(), [](const cv::Vec2f& pixel) { return pixel[1] <= 0; })) return;
   fill_by_push_pull(known);
-  each_pixel(part.size(), [&](int y, int x) {
+  parallel_pixels(part.size(), [&](int y, int x) {
     if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(known(y, x)[0])), 0.0f, 1.0f);
-  });
-}
-
-Rgba front_colour(const Rgba& picture, const Plane& matte) {
-  return filled(picture, [&](int y, int x) { return matte(y, x) > 0 ? purity(1 - matte(y, x)) : 0.0f; });
-}
-
-void split_remainder(const Rgba& picture, const Plane& matte, Rgba& front, Rgba& back) {
-  each_pixel(picture.size(), [&](int y, int x) {
-    const float a = matte(y, x);
-    const cv::Vec4f& p = picture(y, x);
-    if (a >= 1) front(y, x) = p;
-    if (a <= 0) back(y, x) = p;
-    const cv::Vec4f share = (p - a * front(y, x) - (1 - a) * back(y, x)) * (1 / (a * a + (1 - a) * (1 - a)));
-    if (a < 1) front(y, x) += a * share;
-    if (a > 0) back(y, x) += (1 - a) * share;
   });
 }
 
@@ -159,19 +107,18 @@ Peeling::Peeling(const Rgba& picture) {
   solid_ = Plane::ones(picture.size());
 }
 
-Peeling::Taken Peeling::take(const PeelLayer& layer, std::string_view name) {
+Peeling::Taken Peeling::take(const PeelLayer& layer, std::string_view name, Progress progress) {
   check_layer(std::string(name), layer, left_);
   if (!layer.matte) throw BadInput(std::string(name) + ".matte: missing");
   Plane matte = softened(whole_matte(*layer.matte, left_.size()), layer.feather);
   complete(matte, hidden_);
-  const cv::Rect box = surroundings(matte);
+  const cv::Rect box = cv::boundingRect(matte > 0);
   if (box.empty()) return {};
-  const Plane part = matte(box);
-  Rgba front = front_colour(left_(box), part), back = back_colour(layer, part, box);
-  split_remainder(left_(box), part, front, back);
-  const cv::Rect covered = cv::boundingRect(part > 0);
-  const bool open = std::holds_alternative<Fill>(layer.fill) && std::get<Fill>(layer.fill) == Fill::none;
-  Taken taken{cut(front, matte, box), {back(covered).clone(), part(covered).clone(), covered + box.tl(), open}};
+  const Uncovered colours = uncover(left_, matte, hidden_, layer.fill, std::move(progress));
+  const Fill* fill = std::get_if<Fill>(&layer.fill);
+  const bool open = fill != nullptr && *fill == Fill::none;
+  const Rgba back = colours.back(box - colours.box.tl()).clone();
+  Taken taken{cut(colours.front, matte, colours.box), {back, matte(box).clone(), box, open}};
   leave(taken.behind);
   return taken;
 }
@@ -182,7 +129,7 @@ void Peeling::leave(const Behind& behind) {
   if (behind.box.empty()) return;
   behind.colour.copyTo(left_(behind.box));
   Plane hidden = hidden_(behind.box), solid = solid_(behind.box);
-  each_pixel(behind.box.size(), [&](int y, int x) {
+  parallel_pixels(behind.box.size(), [&](int y, int x) {
     const float a = behind.matte(y, x);
     hidden(y, x) = std::max(hidden(y, x), a);
     if (behind.open && a >= 1) solid(y, x) = 0;
@@ -191,27 +138,13 @@ void Peeling::leave(const Behind& behind) {
 
 LayerImage Peeling::rest() const { return cut(left_, Plane::ones(left_.size()), cv::Rect(0, 0, left_.cols, left_.rows)); }
 
-Rgba Peeling::back_colour(const PeelLayer& layer, const Plane& matte, const cv::Rect& box) const {
-  if (const Rgba* painted = std::get_if<Rgba>(&layer.fill)) {
-    Rgba back = (*painted)(box).clone();
-    for (cv::Vec4f& pixel : back) pixel[3] = 1;
-    return back;
-  }
-  if (std::get<Fill>(layer.fill) == Fill::none) return left_(box).clone();
-  Plane wide;
-  cv::dilate(matte, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * fringe + 1, 2 * fringe + 1)));
-  return filled(left_(box), [&](int y, int x) {
-    return std::max(purity(wide(y, x)), fringe_share * purity(matte(y, x)));
-  });
-}
-
 // `front`, which covers `box`, times the matte, in the box of the matte.
 LayerImage Peeling::cut(const Rgba& front, const Plane& matte, const cv::Rect& box) const {
   const Plane cover = matte(box).mul(solid_(box));
   const cv::Rect inner = cv::boundingRect(cover > 0);
   if (inner.empty()) return {};
   Rgba pixels(inner.size());
-  each_pixel(inner.size(), [&](int y, int x) {
+  parallel_pixels(inner.size(), [&](int y, int x) {
     const float a = cover(y + inner.y, x + inner.x);
     const cv::Vec4f& f = front(y + inner.y, x + inner.x);
     pixels(y, x) = {a * f[0], a * f[1], a * f[2], a};

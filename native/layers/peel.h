@@ -5,17 +5,12 @@
 #include <variant>
 #include <vector>
 
-#include "core/progress.h"
 #include "layers/layer_image.h"
+#include "layers/uncover.h"
 
 /// From a picture and the mattes of its layers to the layers themselves, front to back: each is taken off what is
 /// left of the picture, and the hole behind it is filled (METHODS.md 1; Chuang et al. 2005, 3.1).
 namespace stillwater {
-
-enum class Fill {
-  push_pull,  ///< smoothly, from what surrounds the hole at 3 px or more (nearer lies the fringe of what was cut out)
-  none,       ///< transparent behind what the layer covers wholly
-};
 
 /// A matte of which only a part is kept: `pixels`, 0..1, in `box`, and 0 outside of it.
 struct MatteInBox {
@@ -25,8 +20,8 @@ struct MatteInBox {
 
 struct PeelLayer {
   std::optional<std::variant<Plane, MatteInBox>> matte;  ///< 0..1, a Plane of the picture's size; the last needs none
-  std::variant<Fill, Rgba> fill{Fill::push_pull};  ///< or a painted background, size of the picture
-  double feather = 0;                              ///< softens the matte: a Gaussian of sigma feather / 2, px
+  Filling fill{Fill::push_pull};
+  double feather = 0;  ///< softens the matte: a Gaussian of sigma feather / 2, px
 };
 
 /// What lies behind a layer that was taken off, as far as that changed the picture.
@@ -39,10 +34,7 @@ struct Behind {
 
 /// Takes the layers off a picture one after the other, front first.
 ///
-/// - Laid over each other at rest they give the picture: exactly where mattes are 0 or 1, else to rounding. Whatever
-///   foreground F and background B are thought to be, the remainder r = P - aF - (1-a)B is split between them:
-///   F += a r / (a^2 + (1-a)^2), B += (1-a) r / (a^2 + (1-a)^2).
-/// - F at soft edges is drawn smoothly from where the layer is whole, so that no halo of the old background moves along.
+/// - Laid over each other at rest they give the picture: exactly where mattes are 0 or 1, else to rounding (uncover()).
 /// - What of a matte lies hidden behind layers in front goes on smoothly from what is seen of it, never below what
 ///   the matte itself says there.
 class Peeling {
@@ -57,8 +49,8 @@ class Peeling {
 
   /// Takes the next layer off; it needs a matte. `name` stands in sentences.
   /// Throws BadInput where a size differs, the matte is missing or reaches outside the picture, or the feather is not
-  /// within 0 .. 1000.
-  Taken take(const PeelLayer& layer, std::string_view name = "layer");
+  /// within 0 .. 1000, and as uncover() does; Cancelled. What is left is then as it was.
+  Taken take(const PeelLayer& layer, std::string_view name = "layer", Progress progress = {});
 
   /// The next layer was taken off before, and left this. Throws BadInput where it does not fit the picture.
   void leave(const Behind& behind);
@@ -71,7 +63,6 @@ class Peeling {
 
  private:
   LayerImage cut(const Rgba& front, const Plane& matte, const cv::Rect& box) const;
-  Rgba back_colour(const PeelLayer& layer, const Plane& matte, const cv::Rect& box) const;
 
   Rgba left_;
   Plane hidden_;  // how far the layers taken so far cover it
@@ -81,7 +72,7 @@ class Peeling {
 /// All layers at once, front first. A last layer without a matte covers the whole picture.
 ///
 /// Throws BadInput as Peeling does, and where another layer than the last has no matte; Cancelled where `progress`,
-/// asked after each layer, says so.
+/// asked now and then, says so.
 std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers, Progress progress = {});
 
 }  // namespace stillwater
