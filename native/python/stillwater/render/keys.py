@@ -10,14 +10,14 @@ import hashlib
 import msgspec
 
 from ..recipe import Recipe
-from ..recipe.mattes import ExemplarFill, FileFill, FileMatte
+from ..recipe.mattes import ExemplarFill, FileFill, FileMatte, LabelMatte, TrimapMatte
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
 from .resolve import Now, Timeline
 
 # Raised by who changes what an engine computes: frames and preparations made by another version are made again.
 ENGINES = {
     "picture": 1,
-    "layers": 4,
+    "layers": 5,
     "frame": 4,
     "wind": 1,
     "still": 1,
@@ -141,13 +141,22 @@ def matte_facts(matte, digests: dict[str, str]):
     """What a matte is, its file by what it holds."""
     if matte is None:
         return None
-    if isinstance(matte, FileMatte):
-        return ["file", digests[matte.file], matte.channel]
-    return ["labels", digests[matte.labels], matte.value]
+    match matte:
+        case FileMatte():
+            return ["file", digests[matte.file], matte.channel]
+        case LabelMatte():
+            return ["labels", digests[matte.labels], matte.value]
+        case TrimapMatte():
+            return ["trimap", digests[matte.trimap], matte.method]
+    return ["drawn", matte]
 
 
 def fill_facts(fill, digests: dict[str, str]):
     """How a hole is filled, a file by what it holds."""
-    if isinstance(fill, FileFill):
-        return ["file", digests[fill.file]]
-    return ["push-pull"] if isinstance(fill, ExemplarFill) else ["none"]
+    match fill:
+        case FileFill():
+            return ["file", digests[fill.file]]
+        case ExemplarFill():
+            source = matte_facts(fill.source, digests)
+            return ["exemplar", fill.patch, fill.radius, fill.grow, source, fill.touch_up]
+    return ["none"]

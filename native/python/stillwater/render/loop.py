@@ -20,7 +20,7 @@ from .events import Done, Event, Frame, Preparing, Started, Warn
 from .keys import FrameKeys
 from .lock import Lock
 from .movie import Movie
-from .prepare import LARGEST_SIDE, Sources, boxes_of, check_view, filled_otherwise
+from .prepare import LARGEST_SIDE, Sources, boxes_of, check_view
 from .reads import Reads, mark, read_mark
 from .renderer import Renderer, eight_bit
 from .resolve import Timeline
@@ -71,7 +71,7 @@ class Job:
         else:
             said, self.boxes, self.has_alpha = (self.stack.facts[name] for name in ("warnings", "colour", "has_alpha"))
         check_view(self.recipe, self.boxes)
-        yield from map(Warn, [*said, *filled_otherwise(self.recipe), *self.timeline.warnings()])
+        yield from map(Warn, [*said, *self.timeline.warnings()])
 
     def prepare(self, claim) -> Iterator[Event]:
         """Leaves the layers in `stack`: from the cache, from another worker that is at it, or cut now."""

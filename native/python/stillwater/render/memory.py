@@ -37,7 +37,7 @@ def _behind(job) -> list:
     height, width = job.images.picture.shape[:2]
     step = math.ceil(max(width, height) / TRIED_OUT)
     picture = np.ascontiguousarray(job.images.picture[::step, ::step])
-    mattes = [None if matte is None else _small(matte, picture.shape[:2], step) for matte in job.images.mattes]
+    mattes = [None if matte is None else _small(matte.bound, picture.shape[:2], step) for matte in job.images.mattes]
     fills, feathers = [engine.Fill.push_pull] * len(mattes), [0.0] * len(mattes)
     layers = engine.peel(picture, mattes, fills, feathers)
     return [_grown(own, layer.box, step, (width, height)) for own, layer in zip(job.boxes, layers, strict=True)]

@@ -18,7 +18,7 @@ from .errors import Failed
 from .events import Event, Preparing, Ready, Warn
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
-from .prepare import Sources, digests_of, filled_otherwise
+from .prepare import Sources, digests_of
 from .resolve import Timeline
 from .stack import cut, find_stack, forget_stack, layer_images
 
@@ -63,7 +63,6 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
     """
     sources = Sources(document, cache)
     key = _key(sources.key, longest)
-    yield from map(Warn, filled_otherwise(document.recipe))
     if cache.find(key) is None:
         with cache.lock(key, beat) as lock:
 

@@ -5,8 +5,10 @@ from collections.abc import Callable, Generator
 import numpy as np
 
 from .. import _stillwater as engine
+from ..recipe import RecipeError
 from .cache import Cache, Prepared
 from .events import Preparing
+from .fills import Exemplar
 from .prepare import Images, Sources
 
 NOTHING = np.zeros((0, 0, 4), np.float32)
@@ -42,7 +44,7 @@ def cut(
             with cache.lock(key, beat):
                 kept = None if fresh else cache.find(key)
                 if kept is None:
-                    kept = cache.store(key, _taken(peelings, images, i, layer.feather))
+                    kept = cache.store(key, _taken(peelings, images, i, layer.feather, beat))
                     layers.append(kept)
                     continue
         _leave(peelings, kept)
@@ -66,17 +68,22 @@ def layer_images(stack: Prepared, part: str) -> list:
     return [engine.LayerImage(stack.arrays.get(f"{part}{i}", NOTHING), tuple(box)) for i, box in enumerate(boxes)]
 
 
-def _taken(peelings: dict, images: Images, i: int, feather: float) -> Prepared:
-    """The next layer, and what lies behind it, taken off here."""
+def _taken(peelings: dict, images: Images, i: int, feather: float, beat: Callable) -> Prepared:
+    """The next layer, and what lies behind it, taken off here. Throws RecipeError."""
+
+    def still_there(phase: str, share: float) -> bool:
+        beat()
+        return True
+
     arrays, facts = {}, {}
+    left = peelings["colour"].left()
+    matte = None if images.mattes[i] is None else images.mattes[i].on(left, still_there)
     for part, peeling in peelings.items():
-        if images.mattes[i] is None:
+        if matte is None:
             layer, behind = peeling.rest(), None
         else:
-            fill = images.fills[i]
-            if part == "alpha" and isinstance(fill, np.ndarray):
-                fill = _grey_alpha(fill)
-            layer, behind = peeling.take(images.mattes[i], fill, feather, f"layers[{i}]")
+            fill = _fill_of(images.fills[i], part, left, still_there)
+            layer, behind = _take(peeling, i, matte, fill, feather, still_there)
         facts[part] = list(layer.box)
         if min(layer.box[2:]) > 0:
             arrays[part] = layer.pixels
@@ -84,6 +91,20 @@ def _taken(peelings: dict, images: Images, i: int, feather: float) -> Prepared:
             facts |= {"behind": list(behind.box), "open": behind.open}
             arrays |= {f"behind_{part}": behind.colour, "matte": behind.matte}
     return Prepared(arrays, facts)
+
+
+def _fill_of(fill, part: str, left: np.ndarray, progress: Callable):
+    """As the engine wants it. Alpha goes on smoothly where colours are filled from patches."""
+    if isinstance(fill, Exemplar):
+        return fill.on(left, progress) if part == "colour" else engine.Fill.push_pull
+    return _grey_alpha(fill) if part == "alpha" and isinstance(fill, np.ndarray) else fill
+
+
+def _take(peeling, i: int, matte, fill, feather: float, progress: Callable) -> tuple:
+    try:
+        return peeling.take(matte, fill, feather, f"layers[{i}]", progress)
+    except engine.BadInput as error:
+        raise RecipeError(f"layers[{i}].fill: {error}") from None
 
 
 def _leave(peelings: dict, kept: Prepared) -> None:
