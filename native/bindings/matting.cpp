@@ -4,6 +4,7 @@
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
 #include "layers/closed_form.h"
+#include "layers/colour_samples.h"
 #include "layers/drawn_trimap.h"
 #include "layers/foreground.h"
 #include "layers/matte.h"
@@ -87,6 +88,17 @@ py::array_t<float> checked_trimap(const FloatArray& grey) {
   return as_array(grey_of(trimap_from_grey(as_image<float>(grey, "trimap"))));
 }
 
+py::tuple colour_sample_arrays(const FloatArray& picture, const FloatArray& trimap, int iterations, double nearness) {
+  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Trimap labels = trimap_from_grey(as_image<float>(trimap, "trimap"));
+  ColourSamples samples;
+  {
+    const NoGil released;
+    samples = sample_colours(image, labels, {.iterations = iterations, .nearness = nearness});
+  }
+  return py::make_tuple(as_array(samples.foreground), as_array(samples.background), as_array(samples.misfit));
+}
+
 py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trimap, const MatteOptions& options,
                                const Progress::Listener& progress) {
   const Rgba image = as_image<cv::Vec4f>(picture, "picture");
@@ -117,7 +129,12 @@ void bind_matting(py::module_& module) {
   py::enum_<MattingMethod>(module, "MattingMethod")
       .value("closed_form", MattingMethod::closed_form)
       .value("bayesian", MattingMethod::bayesian);
-  py::class_<MatteOptions>(module, "MatteOptions").def(py::init<>()).def_readwrite("method", &MatteOptions::method);
+  py::class_<MatteOptions>(module, "MatteOptions")
+      .def(py::init<>())
+      .def_readwrite("method", &MatteOptions::method)
+      .def_readwrite("colour", &MatteOptions::colour)
+      .def_readwrite("haze", &MatteOptions::haze)
+      .def_readwrite("tolerance", &MatteOptions::tolerance);
   py::class_<ForegroundOptions>(module, "ForegroundOptions")
       .def(py::init<>())
       .def_readwrite("regularization", &ForegroundOptions::regularization)
@@ -131,6 +148,8 @@ void bind_matting(py::module_& module) {
   module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"), py::arg("snap"));
   module.def("trimap_from_grey", &checked_trimap, py::arg("grey"));
   module.def("matting_laplacian", &laplacian_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon"));
+  module.def("sample_colours", &colour_sample_arrays, py::arg("picture"), py::arg("trimap"), py::arg("iterations") = 8,
+             py::arg("nearness") = 1.0);
   module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
              py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
              py::arg("spacing") = 6);

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _stillwater as engine
+from .images import write
 from .layers import _premultiplied
+
+if TYPE_CHECKING:
+    from .recipe.mattes import LassoMatte, ScribbleMatte
 
 Array = NDArray[np.float32]
 Progress = Callable[[str, float], bool]
@@ -108,6 +113,29 @@ def foreground(picture: ArrayLike, alpha: ArrayLike, *, progress: Progress | Non
     """
     front, back = engine.foreground_and_background(_premultiplied(picture), alpha, progress=progress)
     return front[..., :3].copy(), back[..., :3].copy()
+
+
+def drawn_trimap(picture: ArrayLike, drawn: ScribbleMatte | LassoMatte) -> Array:
+    """The trimap of what a recipe's matte draws. Raises as `trimap` does."""
+    import msgspec
+
+    given = msgspec.to_builtins(drawn)
+    given.pop("method")
+    return trimap(picture, **given)
+
+
+def cut_out(picture: ArrayLike, alpha: ArrayLike) -> Array:
+    """What a matte cuts out of a picture, in its own colours: height x width x 4, straight alpha."""
+    alpha = np.asarray(alpha, np.float32)
+    return np.concatenate([foreground(picture, alpha)[0], alpha[..., None]], axis=2)
+
+
+def write_matte(path: str | os.PathLike[str], alpha: ArrayLike) -> None:
+    """Writes a matte so that it is read back as it was: grey, in OpenEXR (whose colours are scene-linear) white with alpha."""
+    grey = np.asarray(alpha, np.float32)[..., None]
+    white = np.ones_like(grey)
+    linear = os.fspath(path).lower().endswith(".exr")
+    write(path, np.concatenate([white, white, white, grey] if linear else [grey, grey, grey, white], axis=2))
 
 
 def _strokes(name: str, strokes: Sequence[Mapping[str, Any]]) -> list:

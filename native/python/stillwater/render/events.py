@@ -40,6 +40,13 @@ class Warn(Event, tag="warning"):
     sentence: str
 
 
+class LayerFile(Event, tag="layer"):
+    """Of `layers`: a layer is written."""
+
+    name: str
+    path: str
+
+
 class Done(Event):
     """All frames are there."""
 

@@ -7,7 +7,7 @@ import numpy as np
 from .. import _stillwater as engine
 from ..recipe import RecipeError
 from .cache import Cache, Prepared
-from .events import Preparing
+from .events import Event, Preparing, Warn
 from .fills import Exemplar
 from .prepare import Images, Sources
 
@@ -51,6 +51,28 @@ def cut(
         layers.append(kept)
     facts = {"layers": sources.layer_keys, "warnings": images.warnings, "has_alpha": images.has_alpha}
     return _joined(cache.store(sources.key, Prepared({}, facts)), layers)
+
+
+def layers_of(sources: Sources, cache: Cache, beat: Callable[[], None]) -> Generator[Event, None, Prepared]:
+    """All layers of a recipe: from the cache, from another process that is at it, or cut now. Answers as find_stack().
+
+    `beat` is called again and again while it lasts. Throws RecipeError.
+    """
+    stack = find_stack(cache, sources.key)
+    if stack is not None:
+        return stack
+    with cache.lock(sources.key, beat) as lock:
+
+        def still_there() -> None:
+            beat()
+            lock.beat()
+
+        stack = find_stack(cache, sources.key)
+        if stack is None:
+            images = yield from sources.read()
+            yield from map(Warn, images.warnings)
+            stack = yield from cut(sources, images, cache, still_there)
+    return stack
 
 
 def forget_stack(sources: Sources, cache: Cache) -> None:
