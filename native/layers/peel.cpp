@@ -112,6 +112,7 @@ Peeling::Taken Peeling::take(const PeelLayer& layer, std::string_view name, Prog
   if (!layer.matte) throw BadInput(std::string(name) + ".matte: missing");
   Plane matte = softened(whole_matte(*layer.matte, left_.size()), layer.feather);
   complete(matte, hidden_);
+  matte = cv::max(0.0, cv::min(1.0, matte));  // blurring rounds
   const cv::Rect box = cv::boundingRect(matte > 0);
   if (box.empty()) return {};
   const Uncovered colours = uncover(left_, matte, hidden_, layer.fill, std::move(progress));

@@ -76,13 +76,24 @@ Rgba smooth_filling(const Rgba& seen, const Plane& matte) {
   return known;
 }
 
-// Where patches may come from: what the search allows, and of that what no layer has hidden, where there is any.
-Plane source_of(const InpaintParameters& search, const Plane& matte, const Plane& hidden, const Plane& hole) {
+// Whether a whole patch lies somewhere in `source` and off what is closed.
+bool any_patch(const Plane& source, const Plane& closed, int patch) {
+  cv::Mat centres;
+  cv::erode((source >= 0.5f) & (closed < 0.5f), centres, cv::Mat::ones(patch, patch, CV_8U), {-1, -1}, 1,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
+  return any(centres);
+}
+
+// Where patches may come from: what the search allows, and of that what no layer hides or has hidden, where there is
+// any. Nothing where the search allows all, and yet no patch is whole.
+std::optional<Plane> source_of(const InpaintParameters& search, const Plane& matte, const Plane& hidden, const Plane& hole) {
   const Plane allowed = search.source ? *search.source : Plane::ones(hole.size());
+  const Plane closed = grown(hole >= 0.5f, search.grow);
   Plane never_hidden = allowed.clone();
   never_hidden.setTo(0, (hidden > 0) | (matte > 0));
-  const Plane closed = grown(hole >= 0.5f, search.grow);
-  return any((never_hidden >= 0.5f) & (closed < 0.5f)) ? never_hidden : allowed;
+  if (any_patch(never_hidden, closed, search.patch)) return never_hidden;
+  if (search.source || any_patch(allowed, closed, search.patch)) return allowed;
+  return std::nullopt;
 }
 
 // The largest odd side, at most `wanted`, that fits into both sides of a picture.
@@ -109,6 +120,7 @@ Rgba exemplar_filling(const Rgba& seen, const Plane& matte, const Plane& hidden,
   search.patch = fitting_patch(search.patch, seen.size());
   if (search.patch < 3 || !any(hole < 0.5f)) return smooth_filling(seen, matte);
   search.source = source_of(search, matte, hidden, hole);
+  if (!search.source) return smooth_filling(seen, matte);
   Rgba filling = inpaint(seen, hole, search, progress);
   for (const TouchUp& place : fill.touch_ups) touch_up(place, hole, search, filling, progress);
   return filling;

@@ -43,7 +43,7 @@ struct Uncovered {
 /// - Laid over each other they give the picture: whatever is missing, r = P - aF - (1-a)B, is split between them,
 ///   F += a r / (a^2 + (1-a)^2), B += (1-a) r / (a^2 + (1-a)^2).
 /// - Patches come from what no layer hides or has hidden, as long as there is any; a patch is never larger than
-///   the picture, and where not even 3 px fit, or nothing is seen of a background at all, the filling is smooth.
+///   the picture, and where not even 3 px fit, or no whole patch is seen of a background at all, the filling is smooth.
 ///
 /// `left`: opaque, what is left of the picture. `matte`, `hidden`: its size, 0..1; the matte is somewhere above 0.
 /// Throws BadInput where a size differs and as inpaint() does; Cancelled.
