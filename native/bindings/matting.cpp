@@ -94,7 +94,7 @@ py::tuple colour_sample_arrays(const FloatArray& picture, const FloatArray& trim
   ColourSamples samples;
   {
     const NoGil released;
-    samples = sample_colours(image, labels, {.iterations = iterations, .nearness = nearness});
+    samples = sample_colours(image, labels, cv::Mat_<unsigned char>(labels == known::unknown), {.iterations = iterations, .nearness = nearness});
   }
   return py::make_tuple(as_array(samples.foreground), as_array(samples.background), as_array(samples.misfit));
 }
@@ -133,6 +133,8 @@ void bind_matting(py::module_& module) {
       .def(py::init<>())
       .def_readwrite("method", &MatteOptions::method)
       .def_readwrite("colour", &MatteOptions::colour)
+      .def_readwrite("at_once", &MatteOptions::at_once)
+      .def_readwrite("finest", &MatteOptions::finest)
       .def_readwrite("haze", &MatteOptions::haze)
       .def_readwrite("tolerance", &MatteOptions::tolerance);
   py::class_<ForegroundOptions>(module, "ForegroundOptions")

@@ -50,8 +50,8 @@ struct Pair {
 
 class Search {
  public:
-  Search(const Rgba& picture, const Trimap& trimap, const ColourSampleOptions& options)
-      : picture_(picture), trimap_(trimap), options_(options), fronts_(border_samples(picture, trimap, known::foreground)),
+  Search(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted, const ColourSampleOptions& options)
+      : picture_(picture), trimap_(trimap), wanted_(wanted), options_(options), fronts_(border_samples(picture, trimap, known::foreground)),
         backs_(border_samples(picture, trimap, known::background)), far_from_front_(distance_from(trimap, known::foreground)),
         far_from_back_(distance_from(trimap, known::background)), weight_(static_cast<float>(options.nearness)),
         pairs_(picture.size(), cv::Vec2i(static_cast<int>(fronts_.size()) / 2, static_cast<int>(backs_.size()) / 2)),
@@ -59,7 +59,7 @@ class Search {
 
   ColourSamples best() {
     const auto looked_for = [this](int y, int x) {
-      return trimap_(y, x) == known::unknown && far_from_both(y, x) <= options_.reach;
+      return wanted_(y, x) && trimap_(y, x) == known::unknown;
     };
     if (!fronts_.empty() && !backs_.empty())
       for (int round = 0; round < options_.iterations; ++round)
@@ -73,8 +73,6 @@ class Search {
   }
 
  private:
-  float far_from_both(int y, int x) const { return std::max(far_from_front_(y, x), far_from_back_(y, x)); }
-
   void improve(int y, int x, int round) {
     const Place here{static_cast<float>(x), static_cast<float>(y), weight_ / far_from_front_(y, x),
                      weight_ / far_from_back_(y, x), picture_(y, x)};
@@ -128,15 +126,13 @@ class Search {
   }
 
   ColourSamples found() const {
-    ColourSamples result{Rgba::zeros(picture_.size()), Rgba::zeros(picture_.size()), Plane::zeros(picture_.size()),
-                         Plane(picture_.size(), 1.0f)};
+    ColourSamples result{Rgba::zeros(picture_.size()), Rgba::zeros(picture_.size()), Plane(picture_.size(), 1.0f)};
     for (int y = 0; y < picture_.rows; ++y)
       for (int x = 0; x < picture_.cols; ++x) {
         if (!(costs_(y, x) < std::numeric_limits<float>::infinity())) continue;
         const Sample &front = fronts_[pairs_(y, x)[0]], &back = backs_[pairs_(y, x)[1]];
         result.foreground(y, x) = {front.red, front.green, front.blue, 1};
         result.background(y, x) = {back.red, back.green, back.blue, 1};
-        result.distance(y, x) = far_from_both(y, x);
         result.misfit(y, x) = misfit(picture_(y, x), front, back);
       }
     return result;
@@ -144,6 +140,7 @@ class Search {
 
   const Rgba& picture_;
   const Trimap& trimap_;
+  const cv::Mat_<unsigned char>& wanted_;
   ColourSampleOptions options_;
   std::vector<Sample> fronts_, backs_;
   Plane far_from_front_, far_from_back_;
@@ -164,8 +161,9 @@ float best_mix(const cv::Vec4f& colour, const cv::Vec4f& foreground, const cv::V
   return square > 0 ? std::clamp(along / square, 0.0f, 1.0f) : 1.0f;
 }
 
-ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const ColourSampleOptions& options) {
-  return Search(picture, trimap, options).best();
+ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
+                             const ColourSampleOptions& options) {
+  return Search(picture, trimap, wanted, options).best();
 }
 
 }  // namespace stillwater

@@ -10,14 +10,12 @@ namespace stillwater {
 struct ColourSampleOptions {
   int iterations = 4;      ///< rounds of the search
   double nearness = 1;     ///< weight of the samples' distances against colour, 1 per 1/255
-  double reach = 1e6;      ///< px; pixels further away from known ones of either kind get no samples
   std::uint64_t seed = 1;
 };
 
-/// For each unknown pixel a known foreground and a known background colour that together explain it.
+/// For each pixel a known foreground and a known background colour that together explain it.
 struct ColourSamples {
   Rgba foreground, background;  ///< of the picture's size, their fourth channel is 0 where there is none
-  Plane distance;               ///< px, to known pixels of the kind that is further away
   Plane misfit;                 ///< what the best mix of the two lacks of the pixel's colour, its length, 0..1
 };
 
@@ -27,8 +25,9 @@ struct ColourSamples {
 /// A pair costs what its best mix lacks of the pixel's colour, and how far away both are, in distances of the nearest.
 ///
 /// Red and black pixels take turns, and random numbers are keyed by place: the same for any number of threads. The trimap
-/// has foreground and background.
-ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const ColourSampleOptions& options = {});
+/// has foreground and background; samples are given to those of its unknown pixels that are `wanted` (not 0).
+ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
+                             const ColourSampleOptions& options = {});
 
 /// How much of the foreground, 0..1, mixes with the background best to a colour (He et al., eq. 2); 1 where they are equal.
 float best_mix(const cv::Vec4f& colour, const cv::Vec4f& foreground, const cv::Vec4f& background);

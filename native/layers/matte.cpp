@@ -4,7 +4,9 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "layers/bayesian.h"
 #include "layers/closed_form.h"
+#include "layers/coarse_to_fine.h"
 #include "layers/colour_prior.h"
 
 namespace stillwater {
@@ -22,19 +24,34 @@ void check_trimap(const Trimap& trimap) {
 void check_options(const MatteOptions& options) {
   check::in_range("colour", options.colour, 0, 1e6);
   check::in_range("haze", options.haze, 0, 0.49);
+  check::in_range("at_once", options.at_once, 1, 1e9);
+  check::power_of_two("finest", options.finest, 1, 8);
   check::in_range("tolerance", options.tolerance, 1e-12, 1);
-}
-
-Plane closed_form(const Rgba& picture, const Trimap& trimap, const MatteOptions& options, Progress& progress) {
-  ClosedFormOptions solve{.tolerance = options.tolerance};
-  progress.phase("comparing colours", 0.3);
-  if (options.colour > 0) solve.prior = colour_prior(picture, trimap, {.weight = options.colour});
-  progress.phase("solving the matte", 0.7);
-  return closed_form_matte(picture, trimap, solve, [&](double share) { progress.at(share); }).alpha;
 }
 
 void take_off_haze(Plane& alpha, float haze) {
   for (float& a : alpha) a = std::clamp((a - haze) / (1 - 2 * haze), 0.0f, 1.0f);
+}
+
+Plane closed_form(const Rgba& picture, const Trimap& trimap, const MatteOptions& options, Progress& progress) {
+  progress.phase("solving the matte", 1);
+  const SolveLevel solve = [&](const Rgba& image, const Trimap& labels, const Plane& start) {
+    ClosedFormOptions level{.tolerance = options.tolerance};
+    if (options.colour > 0) level.prior = colour_prior(image, labels, {.weight = options.colour});
+    if (!start.empty()) level.start = start;
+    const double before = static_cast<double>(image.total()) / static_cast<double>(4 * picture.total());
+    const auto done = [&](double share) { progress.at(before * (1 + 3 * share)); };
+    done(0);
+    Plane alpha = closed_form_matte(image, labels, level, done).alpha;
+    take_off_haze(alpha, static_cast<float>(options.haze));
+    return alpha;
+  };
+  return coarse_to_fine(picture, trimap, {.at_once = options.at_once, .finest = options.finest}, solve);
+}
+
+Plane bayesian(const Rgba& picture, const Trimap& trimap, Progress& progress) {
+  progress.phase("solving the matte", 1);
+  return bayesian_matte(picture, trimap, {}, [&](double share) { progress.at(share); });
 }
 
 }  // namespace
@@ -45,8 +62,12 @@ Plane matte(const Rgba& picture, const Trimap& trimap, const MatteOptions& optio
   check::same_size("trimap", trimap, "the picture", picture);
   check_trimap(trimap);
   check_options(options);
+  if (cv::countNonZero(trimap == known::unknown) == 0) return grey_of(trimap);
+  switch (options.method) {
+    case MattingMethod::bayesian: return bayesian(picture, trimap, progress);
+    case MattingMethod::closed_form: break;
+  }
   Plane alpha = closed_form(picture, trimap, options, progress);
-  take_off_haze(alpha, static_cast<float>(options.haze));
   progress.at(1);
   return alpha;
 }
