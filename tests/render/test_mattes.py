@@ -7,7 +7,9 @@ from PIL import Image
 from stillwater import RecipeError, load
 from stillwater import _stillwater as engine
 from stillwater.render.cache import FOLDER, Cache
+from stillwater.render.events import QuickMatte
 from stillwater.render.prepare import Sources
+from stillwater.render.quick_matte import Pictures, quick_matte
 from stillwater.render.stack import layers_of
 
 TREE, BACK = 0, 1
@@ -153,3 +155,55 @@ def test_what_can_t_be_cut_is_a_sentence(scene, disc, tmp_path, matte, fill, sen
     Image.fromarray(np.zeros((4, 5), np.uint8)).save(tmp_path / "small.png")
     with pytest.raises(RecipeError, match=sentence):
         stack_of(write(scene, matte, **fill))
+
+
+class TestQuickMatte:
+    """Of one layer, while it is drawn."""
+
+    @staticmethod
+    def ask(path, name="disc", pictures=None):
+        document = load(path)
+        cache = Cache(path.parent / FOLDER)
+        *_, event = quick_matte(document, name, cache, pictures or Pictures())
+        assert isinstance(event, QuickMatte) and event.layer == name
+        return cache.find(event.key).arrays["matte"]
+
+    @pytest.mark.parametrize("form", [*FORMS, "file"])
+    def test_it_is_near_to_the_final_one(self, scene, disc, form):
+        path = disc[0](scene, FORMS.get(form, {"file": "trimap.png"}))
+        quick = self.ask(path)
+        assert quick.dtype == np.uint8 and quick.shape == (36, 48)
+        np.testing.assert_allclose(quick / 255, plane(stack_of(path), TREE)[..., 3], atol=0.03)
+
+    def test_it_is_solved_smaller_where_much_is_unknown(self, scene, disc, monkeypatch):
+        path = disc[0](scene, FORMS["scribbles"])
+        exact = self.ask(path)
+        monkeypatch.setattr("stillwater.render.quick_matte.AT_ONCE", 300)
+        smaller = self.ask(path)
+        assert not np.array_equal(exact, smaller) and abs(exact / 255 - smaller / 255).mean() < 0.03
+
+    def test_it_is_solved_on_what_is_left(self, scene, disc):
+        def both(recipe):
+            recipe["layers"] = [{"name": "disc", "matte": FORMS["trimap"], "fill": {"method": "exemplar", "patch": 5}},
+                                {"name": "second", "matte": FORMS["scribbles"]}, {"name": "back"}]  # fmt: skip
+
+        path = scene(both, disc[0](scene, FORMS["trimap"]).name)
+        on_the_picture = self.ask(path, "second")
+        for key in Cache(path.parent / FOLDER).facts():
+            Cache(path.parent / FOLDER).forget(key)
+        stack_of(scene(lambda recipe: recipe.update(layers=[
+            {"name": "disc", "matte": FORMS["trimap"], "fill": {"method": "exemplar", "patch": 5}}, {"name": "back"}]), "front.json"))  # fmt: skip
+        assert not np.array_equal(self.ask(path, "second"), on_the_picture)
+
+    def test_the_picture_is_read_once(self, scene, disc, monkeypatch):
+        path, pictures = disc[0](scene, FORMS["scribbles"]), Pictures()
+        self.ask(path, pictures=pictures)
+        monkeypatch.setattr(engine, "read_picture", None)
+        self.ask(disc[0](scene, FORMS["lasso"]), pictures=pictures)
+
+    def test_what_is_wrong_is_a_sentence(self, scene, disc):
+        path = disc[0](scene, FORMS["scribbles"])
+        with pytest.raises(RecipeError, match='layer: "tree" is not one of disc, back'):
+            self.ask(path, "tree")
+        with pytest.raises(RecipeError, match=r"layers\[1\].matte: missing \(there is nothing to solve\)"):
+            self.ask(path, "back")

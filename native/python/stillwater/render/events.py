@@ -69,5 +69,12 @@ class Ready(Event, tag="done"):
     files: dict[str, list]
 
 
+class QuickMatte(Event, tag="matte"):
+    """Of `serve`: a matte of this layer, near to what it will be, is in the cache."""
+
+    key: str
+    layer: str
+
+
 class Dropped(Event, tag="cancelled"):
     """Of `serve`: a request was cancelled, or a newer one for the same recipe came."""

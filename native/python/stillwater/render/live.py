@@ -173,6 +173,12 @@ class Live:
             whole[y : y + high, x : x + wide] = part[..., 3]
         return whole
 
+    def quick_matte(self, key: str) -> NDArray[np.uint8] | None:
+        """The matte that `serve` answered with this key, picture height x width, 0 .. 255, top row first; None where the
+        cache has it no more."""
+        kept = self._cache.find(key) if self._cache else None
+        return None if kept is None else kept.arrays["matte"]
+
     def _numbers(self, frame: int) -> tuple:
         if self._timeline is None:
             raise engine.BadInput("live: no recipe was taken yet")

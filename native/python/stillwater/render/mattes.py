@@ -38,10 +38,14 @@ class ToSolve:
     method: str
     bound: object
 
-    def on(self, left: np.ndarray, progress: Progress):
-        """On what is left of the picture (H x W x 4): an engine.MatteInBox. Throws RecipeError."""
+    def on(self, left: np.ndarray, progress: Progress, finest: int = 1):
+        """On what is left of the picture (H x W x 4): an engine.MatteInBox. Throws RecipeError.
+
+        `finest`: 1, or 2, 4, 8: solved on a picture so many times smaller, and enlarged.
+        """
         options = engine.MatteOptions()
         options.method = METHODS[self.method]
+        options.finest = finest
         try:
             return in_box(engine.matte(left, self.trimap(left), options, progress))
         except (engine.BadInput, engine.NotConverged) as error:

@@ -72,6 +72,10 @@ class Sources:
             raise RecipeError(*problems)
         return images
 
+    def picture(self) -> np.ndarray:
+        """The picture alone, H x W x 4. Throws RecipeError."""
+        return self._picture("picture", self.recipe.picture)[0].image
+
     @staticmethod
     def _matte(i: int, layer: Layer, images: Images, reader: MatteReader) -> Given | ToSolve | None:
         if layer.matte is None:

@@ -7,7 +7,6 @@ import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe import Document, RecipeError
-from ..recipe.errors import choices
 from .cache import Cache, Prepared
 from .errors import Failed
 from .events import Event, QuickMatte

@@ -47,7 +47,7 @@ def cut(
                     kept = cache.store(key, _taken(peelings, images, i, layer.feather, beat))
                     layers.append(kept)
                     continue
-        _leave(peelings, kept)
+        leave(peelings, kept)
         layers.append(kept)
     facts = {"layers": sources.layer_keys, "warnings": images.warnings, "has_alpha": images.has_alpha}
     return _joined(cache.store(sources.key, Prepared({}, facts)), layers)
@@ -129,8 +129,8 @@ def _take(peeling, i: int, matte, fill, feather: float, progress: Callable) -> t
         raise RecipeError(f"layers[{i}].fill: {error}") from None
 
 
-def _leave(peelings: dict, kept: Prepared) -> None:
-    """Leaves behind what a layer left when it was taken off."""
+def leave(peelings: dict, kept: Prepared) -> None:
+    """Leaves behind what a layer left when it was taken off. `peelings`: an engine.Peeling by part."""
     if "behind" not in kept.facts:
         return
     for part, peeling in peelings.items():
