@@ -1,9 +1,12 @@
+#include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
 #include "layers/closed_form.h"
+#include "layers/coarse_to_fine.h"
+#include "layers/colour_clusters.h"
 #include "layers/colour_samples.h"
 #include "layers/drawn_trimap.h"
 #include "layers/foreground.h"
@@ -99,6 +102,25 @@ py::tuple colour_sample_arrays(const FloatArray& picture, const FloatArray& trim
   return py::make_tuple(as_array(samples.foreground), as_array(samples.background), as_array(samples.misfit));
 }
 
+// The clusters' means and covariances.
+py::list cluster_list(const FloatArray& colours, const std::vector<double>& weights, const ClusterOptions& options) {
+  const auto image = as_image<cv::Vec3f>(colours, "colours");
+  std::vector<WeightedColour> given;
+  for (size_t i = 0; i < weights.size() && i < image.total(); ++i) {
+    const cv::Vec3f& c = image(static_cast<int>(i));
+    given.push_back({{c[0], c[1], c[2]}, weights[i]});
+  }
+  py::list clusters;
+  for (const ColourCluster& cluster : colour_clusters(given, options))
+    clusters.append(py::make_tuple(cluster.mean, cluster.covariance));
+  return clusters;
+}
+
+py::array_t<float> enlarged(const FloatArray& matte, const FloatArray& half, const FloatArray& picture) {
+  return as_array(enlarge_matte(as_image<float>(matte, "matte"), as_image<cv::Vec4f>(half, "half"),
+                                as_image<cv::Vec4f>(picture, "picture")));
+}
+
 py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trimap, const MatteOptions& options,
                                const Progress::Listener& progress) {
   const Rgba image = as_image<cv::Vec4f>(picture, "picture");
@@ -149,6 +171,19 @@ void bind_matting(py::module_& module) {
   module.def("trimap_from_scribbles", &scribbled, py::arg("size"), py::arg("foreground"), py::arg("background"));
   module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"), py::arg("snap"));
   module.def("trimap_from_grey", &checked_trimap, py::arg("grey"));
+  py::class_<ClusterOptions>(module, "ClusterOptions")
+      .def(py::init<>())
+      .def_readwrite("variance", &ClusterOptions::variance)
+      .def_readwrite("most", &ClusterOptions::most)
+      .def_readwrite("noise", &ClusterOptions::noise);
+  module.def("colour_clusters", &cluster_list, py::arg("colours"), py::arg("weights"),
+             py::arg("options") = ClusterOptions());
+  module.def("half_of", [](const FloatArray& picture) { return as_array(half_of(as_image<cv::Vec4f>(picture, "picture"))); },
+             py::arg("picture"));
+  module.def("half_of_trimap", [](const FloatArray& trimap) {
+    return as_array(grey_of(half_of(trimap_from_grey(as_image<float>(trimap, "trimap")))));
+  }, py::arg("trimap"));
+  module.def("enlarge_matte", &enlarged, py::arg("matte"), py::arg("half"), py::arg("picture"));
   module.def("matting_laplacian", &laplacian_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon"));
   module.def("sample_colours", &colour_sample_arrays, py::arg("picture"), py::arg("trimap"), py::arg("iterations") = 8,
              py::arg("nearness") = 1.0);

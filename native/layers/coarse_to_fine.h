@@ -7,7 +7,7 @@
 namespace stillwater {
 
 struct CoarseToFineOptions {
-  int at_once = 100000;    ///< unknown pixels that are solved without a smaller picture first
+  int at_once = 400000;    ///< unknown pixels that are solved without a smaller picture first
   int finest = 1;          ///< 1, 2, 4, ...: the picture is solved this many times smaller, and the matte enlarged
   double decided = 0.02;   ///< alpha; what comes as near to 0 or 1 as this from the smaller picture is decided
 };
