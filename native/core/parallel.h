@@ -11,6 +11,11 @@ namespace stillwater {
 /// thrown by a piece reaches the caller.
 void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work);
 
+/// The same, in turns short enough that `at`, called between them with the share of the rows that is done, can report and
+/// cancel: what it throws ends the work.
+void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work,
+                   const std::function<void(double share)>& at);
+
 /// Threads that parallel_rows may use; 0 = one a core. Throws BadInput when negative or above 1024.
 void set_threads(int threads);
 int threads();

@@ -11,9 +11,9 @@
 namespace stillwater {
 namespace {
 
-constexpr float screen = 0.003f;
+constexpr float screen = 0.01f;
 // A difference of colours (its square) that is a step of tone more than an edge.
-constexpr float step_of_tone = 0.01f;
+constexpr float step_of_tone = 0.001f;
 constexpr int most_rounds = 400;
 constexpr double good_enough = 1e-4;  // of the residual at the start
 constexpr int grain = 4096;
