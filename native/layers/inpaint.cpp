@@ -118,7 +118,7 @@ Rgba inpaint(const Rgba& picture, const Plane& hole, const InpaintParameters& pa
   copy_shifted(shifts, finest.hole, finest.colour);
 
   progress.phase("blending the seams", 0.1);
-  if (parameters.blend) blend_seams(shifts, finest.hole, finest.colour, [&](double share) { progress.at(share); });
+  if (parameters.blend) blend_seams(shifts, finest.hole, finest.colour, *parameters.blend, [&](double share) { progress.at(share); });
   progress.at(1);
   return Rgba(finest.colour(cv::Rect(cv::Point(), picture.size()))).clone();
 }

@@ -20,6 +20,7 @@ _HOMES = {
     "displace": "layers",
     "over": "layers",
     "inpaint": "inpainting",
+    "make_cyclic": "inpainting",
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",
