@@ -23,6 +23,7 @@ _HOMES = {
     "matte": "matting",
     "foreground": "matting",
     "inpaint": "inpainting",
+    "make_cyclic": "inpainting",
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",
