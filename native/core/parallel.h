@@ -12,6 +12,11 @@ namespace stillwater {
 /// thrown by a piece reaches the caller.
 void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work);
 
+/// The same, in turns short enough that `at`, called between them with the share of the rows that is done, can report and
+/// cancel: what it throws ends the work.
+void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work,
+                   const std::function<void(double share)>& at);
+
 /// Calls `work(y, x)` for every pixel of an image of this size; rows are the pieces' borders.
 template <class Work>
 void parallel_pixels(const cv::Size& size, const Work& work) {
@@ -20,10 +25,6 @@ void parallel_pixels(const cv::Size& size, const Work& work) {
       for (int x = 0; x < size.width; ++x) work(y, x);
   });
 }
-/// The same, in turns short enough that `at`, called between them with the share of the rows that is done, can report and
-/// cancel: what it throws ends the work.
-void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work,
-                   const std::function<void(double share)>& at);
 
 /// Threads that parallel_rows may use; 0 = one a core. Throws BadInput when negative or above 1024.
 void set_threads(int threads);
