@@ -24,6 +24,7 @@ _HOMES = {
     "foreground": "matting",
     "inpaint": "inpainting",
     "make_cyclic": "inpainting",
+    "peel": "peeling",
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",

@@ -17,6 +17,7 @@ from .motion import drift as drift
 from .motion import ripple as ripple
 from .motion import sway as sway
 from .motion import wave_heights as wave_heights
+from .peeling import peel as peel
 from .recipe import Document as Document
 from .recipe import RecipeError as RecipeError
 from .recipe import load as load
