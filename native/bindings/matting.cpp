@@ -2,6 +2,8 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
 #include "layers/closed_form.h"
@@ -16,6 +18,14 @@ namespace stillwater {
 namespace {
 
 using NoGil = py::gil_scoped_release;
+
+// The array itself where it has four channels; three get an alpha of 1.
+Rgba colours_of(const FloatArray& picture) {
+  if (picture.ndim() != 3 || picture.shape(2) != 3) return as_image<cv::Vec4f>(picture, "picture");
+  Rgba opaque;
+  cv::cvtColor(as_image<cv::Vec3f>(picture, "picture"), opaque, cv::COLOR_RGB2RGBA);
+  return opaque;
+}
 
 // The system's rows, in the order of the unknown pixels: (pixel, other pixel, coefficient) and the right-hand side.
 py::tuple laplacian_arrays(const FloatArray& picture, const FloatArray& trimap, double epsilon) {
@@ -78,7 +88,7 @@ py::array_t<float> lassoed(const FloatArray& picture, const std::vector<std::arr
                            double snap) {
   Lasso lasso{{}, feather, snap};
   for (const auto& [x, y] : outline) lasso.outline.push_back({x, y});
-  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Rgba image = colours_of(picture);
   Plane trimap;
   {
     const NoGil released;
@@ -123,7 +133,7 @@ py::array_t<float> enlarged(const FloatArray& matte, const FloatArray& half, con
 
 py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trimap, const MatteOptions& options,
                                const Progress::Listener& progress) {
-  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Rgba image = colours_of(picture);
   const Trimap labels = trimap_from_grey(as_image<float>(trimap, "trimap"));
   Plane alpha;
   {
@@ -135,7 +145,7 @@ py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trim
 
 py::tuple foreground_arrays(const FloatArray& picture, const FloatArray& alpha, const ForegroundOptions& options,
                             const Progress::Listener& progress) {
-  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Rgba image = colours_of(picture);
   const Plane matte = as_image<float>(alpha, "alpha");
   ForegroundAndBackground colours;
   {
@@ -156,6 +166,7 @@ void bind_matting(py::module_& module) {
       .def_readwrite("method", &MatteOptions::method)
       .def_readwrite("colour", &MatteOptions::colour)
       .def_readwrite("at_once", &MatteOptions::at_once)
+      .def_readwrite("at_once_scribbled", &MatteOptions::at_once_scribbled)
       .def_readwrite("finest", &MatteOptions::finest)
       .def_readwrite("haze", &MatteOptions::haze)
       .def_readwrite("tolerance", &MatteOptions::tolerance);
@@ -189,7 +200,7 @@ void bind_matting(py::module_& module) {
              py::arg("nearness") = 1.0);
   module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
              py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
-             py::arg("spacing") = 6);
+             py::arg("spacing") = 8);
   module.def("matte", &matte_array, py::arg("picture"), py::arg("trimap"), py::arg("options") = MatteOptions(),
              py::arg("progress") = Progress::Listener());
   module.def("foreground_and_background", &foreground_arrays, py::arg("picture"), py::arg("alpha"),
