@@ -39,7 +39,7 @@ class SeamCost {
   bool contains(const cv::Point& p) const { return inside_.contains(p); }
 
  private:
-  static constexpr int far_beside = 50, far_above = 200;
+  static constexpr int far_beside = 30, far_above = 120;
 
   using Look = cv::Vec<short, 6>;  // four bytes, gradient of lightness
 
