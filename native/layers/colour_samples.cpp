@@ -52,10 +52,17 @@ struct Pair {
 
 class Search {
  public:
-  Search(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted, const ColourSampleOptions& options)
-      : picture_(picture), trimap_(trimap), wanted_(wanted), options_(options), fronts_(border_samples(picture, trimap, known::foreground)),
-        backs_(border_samples(picture, trimap, known::background)), far_from_front_(distance_from(trimap, known::foreground)),
-        far_from_back_(distance_from(trimap, known::background)), weight_(static_cast<float>(options.nearness)),
+  Search(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
+         const ColourSampleOptions& options)
+      : picture_(picture),
+        trimap_(trimap),
+        wanted_(wanted),
+        options_(options),
+        fronts_(border_samples(picture, trimap, known::foreground)),
+        backs_(border_samples(picture, trimap, known::background)),
+        far_from_front_(distance_from(trimap, known::foreground)),
+        far_from_back_(distance_from(trimap, known::background)),
+        weight_(static_cast<float>(options.nearness)),
         pairs_(picture.size(), cv::Vec2i(static_cast<int>(fronts_.size()) / 2, static_cast<int>(backs_.size()) / 2)),
         costs_(picture.size(), std::numeric_limits<float>::infinity()) {}
 
@@ -112,7 +119,8 @@ class Search {
   // What a pair costs, or, where that is more than `enough`, something that is too.
   float cost_of(const Place& place, const Pair& pair, float enough) const {
     const Sample &front = fronts_[pair.front], &back = backs_[pair.back];
-    const float front_x = front.x - place.x, front_y = front.y - place.y, back_x = back.x - place.x, back_y = back.y - place.y;
+    const float front_x = front.x - place.x, front_y = front.y - place.y, back_x = back.x - place.x,
+                back_y = back.y - place.y;
     const float far = place.by_front * std::sqrt(front_x * front_x + front_y * front_y) +
                       place.by_back * std::sqrt(back_x * back_x + back_y * back_y);
     return far >= enough ? far : far + levels * misfit(place.colour, front, back);
