@@ -11,6 +11,7 @@ own. Who is not there is left out, and said. Sheets lie in the output's folder: 
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import subprocess
 import sys
@@ -21,6 +22,8 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: its threads wait busily where others work
 
 import numpy as np
 import stillwater

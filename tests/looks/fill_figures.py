@@ -7,14 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, uniform_filter
-from scipy.spatial import cKDTree
 
 PATCH = 7  # pixels a side
 NEIGHBOURHOOD = 32  # pixels a side
-DIMENSIONS = 16  # in which patches are searched
-CANDIDATES = 6  # compared in full
-STEP = 2  # of the hole's patches, pixels
-MOST_SOURCES = 120_000
+DIMENSIONS = 32  # in which patches are searched
+MOST_WANTED = 1500  # patches of the hole, evenly chosen
 
 Picture = NDArray[np.float32]  # height x width x 3, 0 .. 1
 Mask = NDArray[np.bool_]
@@ -51,18 +48,11 @@ def _most_alike(filled: Picture, hole: Mask) -> tuple[NDArray, NDArray]:
     touching = binary_dilation(hole, np.ones((PATCH, PATCH)))[half:-half, half:-half]
     windows = np.lib.stride_tricks.sliding_window_view(filled, (PATCH, PATCH), (0, 1))
     wanted, known = np.argwhere(touching), np.argwhere(~touching)
-    wanted = wanted[(wanted % STEP == 0).all(axis=1)]
-    rng = np.random.default_rng(0)
-    if len(known) > MOST_SOURCES:
-        known = known[np.sort(rng.choice(len(known), MOST_SOURCES, replace=False))]
-    of = lambda places: windows[places[:, 0], places[:, 1]].reshape(len(places), -1)  # noqa: E731
-    sources, targets = of(known), of(wanted)
+    wanted = wanted[np.unique(np.linspace(0, len(wanted) - 1, MOST_WANTED).astype(int))]
+    sources, targets = (windows[places[:, 0], places[:, 1]].reshape(len(places), -1) for places in (known, wanted))
     mean = sources.mean(axis=0)
-    sample = sources[rng.choice(len(sources), min(len(sources), 4000), replace=False)] - mean
-    axes = np.linalg.svd(sample, full_matrices=False)[2][:DIMENSIONS].T
-    tree = cKDTree((sources - mean) @ axes)
-    _, near = tree.query((targets - mean) @ axes, k=CANDIDATES, eps=0.3)
-    apart = np.sqrt(np.mean((sources[near] - targets[:, None]) ** 2, axis=2))
-    best = apart.argmin(axis=1)
-    rows = np.arange(len(targets))
-    return apart[rows, best], known[near[rows, best]] + half
+    axes = np.linalg.svd(sources[:: len(sources) // 3000 + 1] - mean, full_matrices=False)[2][:DIMENSIONS].T
+    short, wanted_short = (sources - mean) @ axes, (targets - mean) @ axes
+    lengths = (short**2).sum(axis=1)
+    best = np.concatenate([(lengths - 2 * some @ short.T).argmin(axis=1) for some in np.array_split(wanted_short, 20)])
+    return np.sqrt(np.mean((sources[best] - targets) ** 2, axis=1)), known[best] + half

@@ -5,10 +5,10 @@ from fill_figures import figures_of
 from scipy.ndimage import gaussian_filter
 
 RNG = np.random.default_rng(2)
-TRUTH = np.stack([gaussian_filter(RNG.random((180, 300)), 1.5) for _ in range(3)], axis=2)
+TRUTH = np.stack([gaussian_filter(RNG.random((110, 180)), 1.5) for _ in range(3)], axis=2)
 TRUTH = ((TRUTH - TRUTH.min()) / np.ptp(TRUTH)).astype(np.float32)
-HOLE = np.zeros((180, 300), bool)
-HOLE[40:130, 80:190] = True
+HOLE = np.zeros((110, 180), bool)
+HOLE[25:85, 55:115] = True
 
 
 def filled(values):
@@ -17,10 +17,10 @@ def filled(values):
     return picture
 
 
-COPY = filled(np.roll(TRUTH, 115, axis=1)[HOLE])
+COPY = filled(np.roll(TRUTH, 62, axis=1)[HOLE])
 FLAT = filled(TRUTH[~HOLE].mean(axis=0))
 NOISE = filled(RNG.random((HOLE.sum(), 3)))
-TILED = filled(np.tile(TRUTH[5:17, 5:17], (16, 26, 1))[:180, :300][HOLE])
+TILED = filled(np.tile(TRUTH[5:17, 5:17], (16, 26, 1))[:110, :180][HOLE])
 
 
 def test_a_copy_is_coherent_but_at_its_edge():
