@@ -1,4 +1,4 @@
-"""Which strokes are being drawn just now, and the tool settings to go back to."""
+"""Which strokes are being drawn just now, and the settings to go back to."""
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -13,6 +13,7 @@ class STILLWATER_PG_drawing(bpy.types.PropertyGroup):
     placement: StringProperty(options={"HIDDEN"})
     lock_axis: StringProperty(options={"HIDDEN"})
     auto_key: BoolProperty(options={"HIDDEN"})
+    shelf: BoolProperty(options={"HIDDEN"})  # viewports showed the shelf of brushes
 
 
 CLASSES = [STILLWATER_PG_drawing]

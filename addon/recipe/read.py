@@ -15,7 +15,15 @@ MOTIONS = ("still", "sway", "ripple", "bob", "drift")
 
 
 class NoPlace(ValueError):
-    """A part of a recipe that the extension's properties can't hold."""
+    """A part of a recipe that the extension's properties can't hold. `sentence` has its `names` in braces."""
+
+    def __init__(self, sentence: str, **names):
+        super().__init__(sentence.format(**names))
+        self._sentence, self._names = sentence, names
+
+    def translated(self, said: Callable[[str], str]) -> str:
+        """The sentence as `said` has it."""
+        return said(self._sentence).format(**self._names)
 
 
 def fill_picture(picture, recipe: dict, locate: Locate, set_curve: SetCurve, add_layer) -> None:
@@ -42,16 +50,18 @@ def refuse(recipe: dict) -> None:
     for i, layer in enumerate(recipe["layers"]):
         place, matte, fill, motion = f"layers[{i}]", layer["matte"], layer["fill"], layer["motion"]
         if matte is not None and not {"file", "labels"} & set(matte):
-            raise NoPlace(f"{place}.matte: only the forms file and labels can be opened in Blender yet")
+            raise NoPlace("{place}.matte: only the forms file and labels can be opened in Blender yet", place=place)
         if motion["type"] not in MOTIONS:
-            raise NoPlace(f'{place}.motion.type: "{motion["type"]}" can\'t be opened in Blender yet')
+            sentence = '{place}.motion.type: "{motion}" can\'t be opened in Blender yet'
+            raise NoPlace(sentence, place=place, motion=motion["type"])
         plain_fill = {"method": "exemplar", "patch": 9, "radius": None, "grow": 2.0, "source": None, "touch_up": []}
         if fill.get("method") == "exemplar" and {**plain_fill, **fill} != plain_fill:
-            raise NoPlace(f"{place}.fill: numbers of an exemplar fill can't be opened in Blender yet")
+            raise NoPlace("{place}.fill: numbers of an exemplar fill can't be opened in Blender yet", place=place)
         seeds[f"{place}.motion.seed"] = motion.get("seed")
     for place, seed in seeds.items():
         if seed is not None and seed > WIDEST:
-            raise NoPlace(f"{place}: {seed} is above what Blender can hold ({WIDEST})")
+            sentence = "{place}: {seed} is above what Blender can hold ({widest})"
+            raise NoPlace(sentence, place=place, seed=seed, widest=WIDEST)
 
 
 class _Writer:
