@@ -105,8 +105,10 @@ class Equation {
         change += colour(q + theirs) - colour(p + theirs), ++views;
         unlike = std::max(unlike, squared(colour(p + theirs) - colour(p)));
       }
-      if (views == 0) continue;
-      const float weight = parameters_.step_of_tone / (parameters_.step_of_tone + unlike);
+      if (views == 0) unlike = squared(colour(q) - colour(p)), views = 1;  // nothing is known of the change
+      if (!open)
+        for (int c = 0; c < 4; ++c) change[c] = std::clamp(change[c], -parameters_.steepest, parameters_.steepest);
+      const float weight = (open ? 1 : parameters_.border) * parameters_.step_of_tone / (parameters_.step_of_tone + unlike);
       right -= change * (weight / static_cast<float>(views));
       diagonal += weight;
       if (open) neighbours_[i][k] = {number_(q), weight};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "layers/seam_cost.h"
 
@@ -11,6 +12,10 @@ struct BlendParameters {
   float screen = 0.01f;
   /// Square of a difference of colours at a seam that is as much an edge as a step of tone: beyond it the edge is kept.
   float step_of_tone = 0.001f;
+  /// How much more the change from a known pixel into the hole counts than others.
+  float border = 1;
+  /// The largest such change, in each channel.
+  float steepest = std::numeric_limits<float>::max();
 };
 
 /// Spreads what differs along the seams of a shift map over the pieces. In the hole the result u minimises

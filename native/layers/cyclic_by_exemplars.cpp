@@ -1,7 +1,9 @@
 #include "layers/cyclic_by_exemplars.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/check.h"
 #include "layers/cyclic.h"
@@ -11,7 +13,27 @@ namespace stillwater {
 namespace {
 
 // Tone may lead a long way from the end to the beginning, and no edge stays at either.
-constexpr BlendParameters along_the_strip{.screen = 0.0005f, .step_of_tone = 10.0f};
+constexpr BlendParameters along_the_strip{.screen = 0.0005f, .step_of_tone = 10.0f, .border = 16.0f};
+// Share of the image's steps, from one column to the next, that those into the strip must not be above; a little less, for
+// what they are asked to be they are nearly.
+constexpr double usual_share = 0.999, nearly = 0.75;
+
+float usual_step(const Rgba& image) {
+  std::vector<float> steps;
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 1; x < image.cols; ++x)
+      for (int c = 0; c < 3; ++c) steps.push_back(std::abs(image(y, x)[c] - image(y, x - 1)[c]));
+  if (steps.empty()) return along_the_strip.steepest;
+  const auto at = steps.begin() + static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(steps.size() - 1));
+  std::nth_element(steps.begin(), at, steps.end());
+  return static_cast<float>(nearly * *at);
+}
+
+BlendParameters blend_of(const Rgba& image) {
+  BlendParameters blend = along_the_strip;
+  blend.steepest = usual_step(image);
+  return blend;
+}
 
 // The image cut in its middle and put together with its strip between the ends, so that what was its border lies inside.
 template <class Pixel>
@@ -43,7 +65,7 @@ class Synthesis {
     image.copyTo(whole(there));
     hole(there).setTo(0);
     const int by = period.width - image.cols / 2;
-    return turned(filled(turned(whole, {by, 0}), turned(hole, {by, 0}), along_the_strip, weight), {period.width - by, 0});
+    return turned(filled(turned(whole, {by, 0}), turned(hole, {by, 0}), blend_of(image), weight), {period.width - by, 0});
   }
 
   // The strip below an image that wraps along x was filled as if it did not: where its ends meet it is filled once more.
@@ -53,7 +75,7 @@ class Synthesis {
     Plane hole = Plane::zeros(whole.size());
     hole(cv::Rect(0, known_rows, width / 2, strip)).setTo(1);
     hole(cv::Rect(whole.cols - width / 2, known_rows, width / 2, strip)).setTo(1);
-    return turned(filled(turned(whole, by), turned(hole, by), along_the_strip, weight), {whole.cols - by.x, whole.rows - by.y});
+    return turned(filled(turned(whole, by), turned(hole, by), blend_of(whole), weight), {whole.cols - by.x, whole.rows - by.y});
   }
 
  private:

@@ -156,7 +156,8 @@ class Filling {
   MatchField cut_anew(InpaintLevel& level, const MatchField& found) {
     ShiftMap shifts = agreed_shifts(found, weights_of(found, level.hole), parameters_.patch, level.hole, course_.part(0));
     const SeamCost cost(level);
-    expand_shifts(cost, level.hole, candidates(level, shifts), {.sweeps = 2}, shifts, course_.part(0.75 * cutting_work()));
+    const std::vector<cv::Vec2s> tried = candidates(level, shifts);
+    expand_shifts(cost, level.hole, tried, {.sweeps = 2}, shifts, course_.part(0.75 * cutting_work()));
     copy_shifted(shifts, level.hole, level.colour);
     refresh_bytes(level);
     MatchField field = field_of(shifts, level, parameters_.patch);

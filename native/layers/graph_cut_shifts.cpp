@@ -134,16 +134,15 @@ class Expansion {
 void expand_shifts(const SeamCost& cost, const Mask& hole, const std::vector<cv::Vec2s>& candidates,
                    const ExpansionParameters& parameters, ShiftMap& shifts, const std::function<void(double)>& at) {
   Expansion expansion(cost, hole, parameters.reach, shifts);
-  const int sweeps = parameters.sweeps;
-  int tries = 0;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    bool moved = false;
+  std::vector<cv::Vec2s> tried = candidates;
+  for (int sweep = 0; sweep < parameters.sweeps && !tried.empty(); ++sweep) {
     expansion.look_up_pieces();
-    for (const cv::Vec2s& shift : candidates) {
-      moved = expansion.expand(shift) || moved;
-      if (at) at(++tries / static_cast<double>(sweeps * static_cast<int>(candidates.size())));
+    std::vector<cv::Vec2s> grown;
+    for (size_t i = 0; i < tried.size(); ++i) {
+      if (expansion.expand(tried[i])) grown.push_back(tried[i]);
+      if (at) at((sweep + static_cast<double>(i + 1) / static_cast<double>(tried.size())) / parameters.sweeps);
     }
-    if (!moved) break;
+    tried = grown;
   }
 }
 

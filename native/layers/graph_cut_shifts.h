@@ -8,7 +8,7 @@
 namespace stillwater {
 
 struct ExpansionParameters {
-  int sweeps = 2;  ///< how often each shift is tried
+  int sweeps = 2;  ///< how often a shift is tried: again where it took pixels over the last time
   int reach = 0;   ///< how far a piece may grow at once, pixels; 0 = over the whole hole, wherever it was before
 };
 

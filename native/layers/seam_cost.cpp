@@ -8,7 +8,7 @@ namespace stillwater {
 namespace {
 
 constexpr int border_at_all = 60;
-constexpr int not_seen = 3000;  // what would be beside one of them lies outside the picture, or in the hole
+constexpr int not_seen = 20000;  // what would be beside one of them lies outside the picture, or in the hole
 
 constexpr short no_slope = 32767;    // beside a pixel lies the hole, or the picture's border
 
