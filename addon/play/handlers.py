@@ -5,6 +5,9 @@ from bpy.app.handlers import persistent
 
 from . import plane, recipes, server, show
 
+BRUSH = "GREASE_PENCIL_OT_brush_stroke"
+LIFTED = 0.02  # s, between two looks at whether the pen was lifted
+
 _rendering = False
 _stale = True  # something changed since the recipes were last looked at
 
@@ -37,9 +40,24 @@ def something_changed(scene, depsgraph=None):
     if any(isinstance(datablock, bpy.types.Action) for datablock in changed):
         recipes.forget_curves()
     _stale = True
-    if not _playing():
+    if _draws():
+        if not bpy.app.timers.is_registered(pen_lifted):
+            bpy.app.timers.register(pen_lifted, first_interval=LIFTED)
+    elif not _playing():
         _stale = False
         show.scene(scene)
+
+
+def pen_lifted() -> float | None:
+    """Once a stroke is whole, what it says is shown; called by a timer."""
+    global _stale
+    if _draws():
+        return LIFTED
+    if not _playing() and not _rendering and _stale:
+        _stale = False
+        for window in bpy.context.window_manager.windows:
+            show.scene(window.scene)
+    return None
 
 
 @persistent
@@ -91,6 +109,12 @@ def _busy(depsgraph) -> bool:
     return _rendering or (depsgraph is not None and depsgraph.mode == "RENDER")
 
 
+def _draws() -> bool:
+    """Whether the pen is down."""
+    windows = bpy.context.window_manager.windows
+    return any(operator.bl_idname == BRUSH for window in windows for operator in window.modal_operators)
+
+
 def _playing() -> bool:
     return any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
 
@@ -121,7 +145,8 @@ def unregister():
     for name, handler in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(handler)
     show.put_back()
-    if bpy.app.timers.is_registered(plane.rest):
-        bpy.app.timers.unregister(plane.rest)
+    for timer in (plane.rest, pen_lifted):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
     server.end()
     show.forget()
