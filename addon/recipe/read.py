@@ -100,6 +100,7 @@ def _layer(layer, part: dict, locate: Locate, writer: _Writer) -> None:
         _matte(layer.fill.source, fill["source"], locate, writer)
         if usual := _usual_touch_up(fill["touch_up"]):
             layer.fill.touch_up_radius, layer.fill.touch_up_seed = usual["radius"] or 0, usual["seed"]
+    _motion(layer.motion, part["motion"], writer)
 
 
 def _matte(matte, said: dict | None, locate: Locate, writer: _Writer) -> None:
