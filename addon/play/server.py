@@ -40,16 +40,24 @@ def matte(name: str, recipe: dict, folder: Path, layer: str, told: Callable[[dic
     return _ask(name, recipe, folder, told, {"do": "matte", "layer": layer})
 
 
-def _ask(name: str, recipe: dict, folder: Path, told: Callable[[dict], None], request: dict) -> int:
-    global _worker, _command, _last
+def wake() -> None:
+    """Starts the process, where there is none, for a request that is soon to come. Throws ValueError, OSError."""
+    global _worker, _command
     chosen = preferences.of(bpy.context)
     command = [*engine.serve_command(chosen.python), *chosen.worker_options()]
     if command != _command and not _open:  # the preferences changed
         end()
     if _worker is None:
         _worker, _command = Worker(command, bpy.app.tempdir), command
+
+
+def _ask(name: str, recipe: dict, folder: Path, told: Callable[[dict], None], request: dict) -> int:
+    global _last
+    wake()
     path = Path(bpy.app.tempdir, f"stillwater-live-{name}.json")
-    path.write_text(json.dumps(recipe), encoding="utf-8")
+    unfinished = path.with_suffix(".part")
+    unfinished.write_text(json.dumps(recipe), encoding="utf-8")
+    unfinished.replace(path)  # whole: the process may be about to read it for the request before
     _last += 1
     _open[_last] = told
     try:

@@ -4,7 +4,7 @@ import bpy
 
 from .. import engine, preferences
 from ..properties import names
-from . import plane, recipes
+from . import plane, recipes, server
 from .draft import behind, solved_matte
 from .stage import Stage, moves
 
@@ -92,6 +92,8 @@ def _show(shown, picture, stage: Stage, refresh: bool) -> None:
         _clear(picture, stage)
         return
     view, active = settings.view, _active(shown, picture)
+    if shown.stillwater.drawing.role:
+        server.wake()
     stage.rests = view == "picture" and not moves(stage.read)
     if not stage.rests or solved_matte(stage.read, active):
         chosen = preferences.of(bpy.context)
