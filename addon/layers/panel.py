@@ -16,6 +16,7 @@ class _Layers(sidebar.OfPicture):
     def draw(self, context):
         picture = context.scene.stillwater.active()
         _draw_list(self.layout, picture)
+        self.layout.menu("STILLWATER_MT_layer_from_outline", icon="MOD_OUTLINE")
         if picture.active_layer >= len(picture.layers):
             sidebar.say(context, self.layout, iface_("Add a layer for each part of the picture that moves"), "INFO")
             return

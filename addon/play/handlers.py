@@ -3,9 +3,9 @@
 import bpy
 from bpy.app.handlers import persistent
 
+from ..strokes import draw_mode
 from . import plane, recipes, server, show
 
-BRUSH = "GREASE_PENCIL_OT_brush_stroke"
 LIFTED = 0.02  # s, between two looks at whether the pen was lifted
 
 _rendering = False
@@ -40,7 +40,7 @@ def something_changed(scene, depsgraph=None):
     if any(isinstance(datablock, bpy.types.Action) for datablock in changed):
         recipes.forget_curves()
     _stale = True
-    if _draws():
+    if draw_mode.pen_is_down():
         if not bpy.app.timers.is_registered(pen_lifted):
             bpy.app.timers.register(pen_lifted, first_interval=LIFTED)
     elif not _playing():
@@ -51,7 +51,7 @@ def something_changed(scene, depsgraph=None):
 def pen_lifted() -> float | None:
     """Once a stroke is whole, what it says is shown; called by a timer."""
     global _stale
-    if _draws():
+    if draw_mode.pen_is_down():
         return LIFTED
     if not _playing() and not _rendering and _stale:
         _stale = False
@@ -107,12 +107,6 @@ def _matters(scene, datablock) -> bool:
 def _busy(depsgraph) -> bool:
     """Frames of a render are not shown; its handlers run in a thread of its own."""
     return _rendering or (depsgraph is not None and depsgraph.mode == "RENDER")
-
-
-def _draws() -> bool:
-    """Whether the pen is down."""
-    windows = bpy.context.window_manager.windows
-    return any(operator.bl_idname == BRUSH for window in windows for operator in window.modal_operators)
 
 
 def _playing() -> bool:

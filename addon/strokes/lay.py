@@ -34,7 +34,7 @@ def _draw(scene, picture, layer_id: str, role: roles.Role, strokes: list[dict]) 
     before, points_before = len(drawing.strokes), drawing.attributes.domain_size("POINT")
     drawing.add_strokes(counts)
     drawing.set_types(type=POLY, indices=list(range(before, before + len(counts))))
-    pixels = np.concatenate([np.array(line["points"], np.float64)[:, :2] for line in lines])
+    pixels = np.array([point[:2] for line in lines for point in line["points"]], np.float64)
     pressures = [point[2] if len(point) > 2 else 1.0 for line in lines for point in line["points"]]
     widths = np.repeat([line.get("width", 4.0) for line in lines], counts) * pressures
     places, unit = _on_plane(picture, part, pixels)

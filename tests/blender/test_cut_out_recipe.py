@@ -70,7 +70,15 @@ def close(ours, theirs, place="recipe"):
 
 
 def normal(recipe) -> list:
-    return msgspec.to_builtins(stillwater.parse(recipe).recipe)["layers"]
+    """Its layers with every default, every point with its pressure."""
+    return pressed(msgspec.to_builtins(stillwater.parse(recipe).recipe)["layers"])
+
+
+def pressed(part):
+    if isinstance(part, dict):
+        full = {name: pressed(value) for name, value in part.items()}
+        return full if "points" not in full else {**full, "points": [[*point, 1.0][:3] for point in full["points"]]}
+    return [pressed(item) for item in part] if isinstance(part, list) else part
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from pictures import paint
 SEEDS, STEPS = 50, 15
 SLOW = 5  # every so-manieth sequence bakes, and plays its pictures live
 MOTIONS = ["still", "sway", "ripple", "bob", "drift"]
-ROLES = ["sway_line", "waterline", "horizon", "horizon"]
+ROLES = ["sway_line", "waterline", "horizon", "horizon", "foreground", "background", "outline", "touch_up"]
 
 
 class Artist:
@@ -84,6 +84,7 @@ CALLS = {
     "export_recipe": lambda artist: {"filepath": artist.file(".json")},
     "former_view": nothing,
     "free_bake": nothing,
+    "layer_from_outline": one_of("motion", MOTIONS),
     "load_recipe": lambda artist: {"filepath": artist.recipe_file()},
     "move_layer": one_of("direction", ["UP", "DOWN", "TOP", "BOTTOM"]),
     "open_picture": lambda artist: {"filepath": artist.picture_file(), "use_render": artist.dice.random() < 0.8},
@@ -183,12 +184,13 @@ def slide(artist) -> None:
     picture.wind.speed, picture.loop = artist.dice.uniform(0, 30), artist.dice.random() < 0.5
     picture.view.use_horizon = artist.dice.random() < 0.5
     picture.view.horizon_end = artist.dice.uniform(1, 20), 4
-    bpy.context.scene.stillwater_live.view = artist.dice.choice(["picture", "layer", "matte", "original"])
+    bpy.context.scene.stillwater_live.view = artist.dice.choice(["picture", "layer", "matte", "behind", "original"])
     if len(picture.layers):
         layer = artist.dice.choice(list(picture.layers))
         layer.opacity, layer.selected, layer.solo = artist.dice.random(), True, artist.dice.random() < 0.2
         layer.motion.sway.armature_tip = artist.dice.uniform(0, 20), 1
-        layer.matte.form = artist.dice.choice(["none", "file", "labels"])
+        layer.matte.form = artist.dice.choice(["none", "file", "labels", "scribbles", "lasso", "trimap"])
+        layer.fill.source.form = artist.dice.choice(["none", "none", "none", "lasso", "scribbles"])
         layer.matte.file = artist.picture_file()
         layer.follows.layer = artist.dice.choice([other.name for other in picture.layers])
         picture.active_layer = artist.dice.randrange(len(picture.layers))
