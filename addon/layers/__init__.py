@@ -1,14 +1,14 @@
 """The list of layers, what each does, and the wind and view that they share.
 
-list.py and panel.py show them; order.py, from_outline.py, selection.py, clipboard.py, presets.py and waterline.py hold the operators.
+list.py and panel.py show them; order.py, from_outline.py, from_labels.py, selection.py, clipboard.py, presets.py and waterline.py hold the operators.
 """
 
 import bpy
 
 from ..strokes import draw_mode
-from . import clipboard, from_outline, list, menus, order, panel, preset_files, presets, selection, waterline, wind_and_view
+from . import clipboard, from_labels, from_outline, list, menus, order, panel, preset_files, presets, selection, waterline, wind_and_view
 
-ROOM = [list, order, from_outline, selection, clipboard, presets, waterline, menus, panel, wind_and_view]
+ROOM = [list, order, from_outline, from_labels, selection, clipboard, presets, waterline, menus, panel, wind_and_view]
 CLASSES = [cls for part in ROOM for cls in part.CLASSES]
 
 
