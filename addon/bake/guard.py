@@ -16,6 +16,7 @@ import time
 from dataclasses import dataclass, field
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import preferences, versions
 from ..compositor import tree as node
@@ -132,7 +133,8 @@ def _make_ready(scene, picture, wish: Wish) -> None:
     found = outdated.look(scene, picture, play=False)
     if found.is_ready or found.problem:
         return
-    tree = node.ensure(scene, picture)
+    before, tree = picture.tree, node.ensure(scene, picture)
+    _keep_step(before, tree)
     tree.stillwater.holds = False
     if not node.show(tree):
         _bake(scene, picture, wish, min(max(wish.frame, scene.frame_start), scene.frame_end))
@@ -140,12 +142,23 @@ def _make_ready(scene, picture, wish: Wish) -> None:
 
 def _bake(scene, picture, wish: Wish, frame: int | None) -> None:
     """Starts the bake of one frame, or of all; one that runs already is waited for."""
+    before = picture.tree
     try:
-        if not (picture.tree and job.running(picture.tree)):
-            job.start(scene, picture, frames=None if frame is None else (frame, frame))
+        if not (before and job.running(before)):
+            _keep_step(before, job.start(scene, picture, frames=None if frame is None else (frame, frame)))
         wish.bakes.append(picture.tree.session_uid)
     except (ValueError, OSError) as error:
         _say(f"{picture.name}: {error}")
+
+
+def _keep_step(before, tree) -> None:
+    """A tree that a render made becomes part of an undo step.
+
+    Else undoing the step before would free it, and leave the scene, which is the same in both, pointing at it.
+    """
+    if tree != before:
+        with _in_a_window():
+            bpy.ops.ed.undo_push(message=rpt_("Bake"))
 
 
 def _finish(wish: Wish) -> None:
@@ -180,12 +193,16 @@ def _baking(wish: Wish) -> list:
 def _say(sentence: str) -> None:
     """On the console, and where there is a window in a pop-up."""
     print(f"Stillwater: {sentence}", flush=True)
-    windows = bpy.context.window_manager.windows
-    if not bpy.app.background and windows:
-        with bpy.context.temp_override(window=windows[0]):
+    if not bpy.app.background and bpy.context.window_manager.windows:
+        with _in_a_window():
             bpy.context.window_manager.popup_menu(
                 lambda menu, _: menu.layout.label(text=sentence), title="Stillwater", icon="ERROR"
             )
+
+
+def _in_a_window():
+    """What operators and pop-ups ask for, which a timer has not."""
+    return bpy.context.temp_override(window=next(iter(bpy.context.window_manager.windows), None))
 
 
 def register():

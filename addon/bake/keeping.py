@@ -23,6 +23,15 @@ def frames_of(picture) -> list[Path]:
     return [path for path in there if engine.read_mark(path)[0]]
 
 
+def forget_prepared(scene, picture) -> None:
+    """Removes what was prepared for the picture from the cache that all pictures share. Throws OSError."""
+    shared, folder = preferences.of(bpy.context).cache(), Path(bpy.app.tempdir)  # any: files are told by what they hold
+    if shared is None or not shared.is_dir():
+        return
+    with contextlib.suppress(ValueError):  # a picture that can't be read: nothing is known to be its own
+        engine.forget_layers(engine.parse(job.describe(scene, picture, folder), folder), shared)
+
+
 class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
     """Delete the picture's frames and what was prepared for them from the disk. This can't be undone"""
 
@@ -40,9 +49,7 @@ class STILLWATER_OT_free_bake(OfPicture, bpy.types.Operator):
             path.unlink()
         if (folder / CACHE).exists():
             shutil.rmtree(folder / CACHE)
-        if shared := preferences.of(context).cache():
-            with contextlib.suppress(ValueError):  # a picture that can't be read: nothing is known to be its own
-                engine.forget_layers(engine.parse(job.describe(context.scene, picture, folder), folder), shared)
+        forget_prepared(context.scene, picture)
         for empty in (places.frames_of(picture), folder):
             if empty.is_dir() and not any(empty.iterdir()):
                 empty.rmdir()

@@ -91,7 +91,7 @@ class _Frames(sidebar.OfPicture):
     def draw(self, context):
         picture = context.scene.stillwater.active()
         self.layout.use_property_split = True
-        for name in ("colour_space", "seed", "loop"):
+        for name in ("seed", "loop"):
             self.layout.prop(picture, name)
         sidebar.draw_all(self.layout, picture.output)
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import bpy
 
+from .. import preferences
 from . import folders
 
-PACKAGE = __package__.rpartition(".")[0]
 NAME = "stillwater"
 
 
@@ -15,7 +15,7 @@ def root_of(filepath: str) -> Path:
     """The folder that holds the pictures' folders of the .blend at `filepath`; "" for one that is not saved."""
     if filepath:
         return Path(filepath).parent / NAME
-    return Path(bpy.utils.extension_path_user(PACKAGE, path="unsaved", create=True))
+    return preferences.user_folder("unsaved")
 
 
 def folder_of(picture) -> Path:

@@ -1,6 +1,6 @@
 """The Stillwater node: a plain group of built-in nodes, fed by the frames on disk.
 
-    Image node (EXR sequence) -> group output: Image, Alpha, Flow, Matte
+    Image node (EXR sequence) -> as small as renders are (percentage.py) -> group output: Image, Alpha, Flow, Matte
     one more for each layer that the frames hold alone -> an output of its name
 
 Until there are frames, a second Image node gives the picture at rest.
@@ -16,7 +16,7 @@ import bpy
 
 from .. import versions
 from ..properties import names
-from . import frames
+from . import frames, percentage
 
 LAYER = "Stillwater"  # of the EXR files: the whole frame
 SOURCE = "Frames"  # name of the Image node that reads it; those of single layers are "Frames NAME"
@@ -28,6 +28,7 @@ OUTPUTS = [
     ("Matte", "Matte", "NodeSocketFloat"),
 ]
 AT_REST = [("Image", "Image"), ("Alpha", "Alpha")]
+ROOM = 650  # between the node and the output: for an artist's own nodes; seen whole, it all lies above Blender's shelf
 
 
 def ensure(scene, picture):
@@ -40,7 +41,7 @@ def ensure(scene, picture):
             tree.interface.new_socket(name, in_out="OUTPUT", socket_type=kind)
         source, output = tree.nodes.new("CompositorNodeImage"), tree.nodes.new("NodeGroupOutput")
         source.name, source.label = SOURCE, SOURCE
-        output.location.x = source.location.x + 300
+        output.location.x = source.location.x + 600
         picture.tree = tree
     _rest(picture.tree, picture.image)
     return picture.tree
@@ -134,7 +135,7 @@ def _show_at_rest(tree) -> None:
     if still is not None and still.image is not None:
         output = _output(tree)
         for part, socket in AT_REST:
-            tree.links.new(still.outputs[part], output.inputs[socket])
+            percentage.link(tree, still.outputs[part], output.inputs[socket])
 
 
 def _output(tree):
@@ -241,7 +242,7 @@ def _link(tree, source, layer: str, pairs: list[tuple[str, str]]) -> None:
         source.image = None
         return
     for socket, part in pairs:
-        tree.links.new(source.outputs[part], output.inputs[socket])
+        percentage.link(tree, source.outputs[part], output.inputs[socket])
 
 
 def _release(tree, source) -> None:
@@ -326,10 +327,10 @@ def wire(scene, tree) -> None:
     shown = [node for node in nodes_of(scene, tree.stillwater.picture) if node.id_data == top]
     node = next(iter(shown), None) or add_node(scene, tree)
     output = versions.output_socket(top)
-    node.location = (output.node.location.x - 300, output.node.location.y)
+    node.location = (output.node.location.x - ROOM, output.node.location.y)
     top.links.new(node.outputs["Image"], output)
     for viewer in _viewers_of_ours(top) or ([top.nodes.new("CompositorNodeViewer")] if untouched else []):
-        viewer.location = (output.node.location.x, output.node.location.y - 150)
+        viewer.location = (output.node.location.x, output.node.location.y - 100)
         top.links.new(node.outputs["Image"], viewer.inputs["Image"])
     versions.use_compositor(scene)
 

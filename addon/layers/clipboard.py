@@ -9,11 +9,10 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .. import strokes
+from .. import preferences, strokes
 from ..properties import arrange, curves, plain
 from .selection import OfLayers, OfPicture, chosen
 
-PACKAGE = __package__.rpartition(".")[0]
 VERSION = 1
 FILES = ("matte.file", "matte.labels", "matte.trimap", "fill.file")  # the paths that a layer holds
 FILES += ("fill.source.file", "fill.source.labels", "fill.source.trimap")
@@ -21,7 +20,7 @@ FILES += ("fill.source.file", "fill.source.labels", "fill.source.trimap")
 
 def place() -> Path:
     """The file that holds the copied layers."""
-    return Path(bpy.utils.extension_path_user(PACKAGE, path="clipboard", create=True)) / "layers.json"
+    return preferences.user_folder("clipboard") / "layers.json"
 
 
 def to_text(picture, indices: list[int]) -> str:

@@ -86,10 +86,10 @@ def _draw_layer(layout, layer, drawn: set[str]) -> None:
 
 def _draw_sway(layout, sway, drawn: set[str]) -> None:
     sidebar.draw(layout, sway, "amount", "frequency", "shimmer")
-    if "armature_tip" not in drawn and (line := sidebar.fold(layout, "stillwater_sway_line", "Sway Line")):
-        sidebar.draw(line, sway, "armature_root", "armature_tip")
     if details := sidebar.fold(layout, "stillwater_sway", "Details"):
         sidebar.draw(details, sway, "foreshortening", "mass", "damping", "seed")
+        if "armature_tip" not in drawn:
+            sidebar.draw(details, sway, "armature_root", "armature_tip")
 
 
 def _draw_ripple(layout, ripple, drawn: set[str]) -> None:
@@ -105,11 +105,11 @@ def _draw_bob(layout, bob, drawn: set[str]) -> None:
     sidebar.draw(layout, bob, "water", "amount")
     if "waterline" in drawn:
         return
-    title = iface_("Waterline: {count} Points").format(count=len(bob.waterline))
-    line = sidebar.fold(layout, "stillwater_waterline", title)
+    line = sidebar.fold(layout, "stillwater_waterline", "Details")
     if line is None:
         return
     line.use_property_split = False
+    line.label(text=iface_("Waterline of {count} points").format(count=len(bob.waterline)))
     column = line.column(align=True)
     for i, point in enumerate(bob.waterline):
         row = column.row(align=True)

@@ -47,6 +47,8 @@ def sway_lines(subject: Subject) -> Iterator[Lines]:
     """Each from root to tip, bent; a straight, faint one where it is at rest; a cross at the root."""
     for layer in _moving(subject, "sway"):
         root, tip = layer["motion"]["armature"]
+        if tuple(root) == tuple(tip):  # not drawn yet
+            continue
         points = [_between(root, tip, i / PIECES) for i in range(PIECES + 1)]
         alpha = STRONG if layer["name"] == subject.active else FAINT
         yield _chain(ORANGE, 1, [root, tip], 0.4 * alpha)

@@ -16,6 +16,7 @@ class STILLWATER_MT_picture(bpy.types.Menu):
         layout.operator("stillwater.load_recipe", text="Open Recipe...", icon="FILE_FOLDER")
         layout.separator()
         layout.operator("stillwater.show_picture", icon="VIEW_CAMERA")
+        layout.operator("stillwater.fit_view", icon="HOME")
         layout.operator("stillwater.replace_picture", text="Replace Picture...", icon="FILE_FOLDER")
         layout.operator("stillwater.reload_picture", icon="FILE_REFRESH")
         layout.separator()

@@ -30,7 +30,7 @@ def make_ready(context, picture) -> bool:
     """The views look at the picture, and drawing would go to its strokes. What show() of scene.py returns."""
     scene = context.scene
     free = settings.show(scene, picture)
-    settings.look(scene)
+    settings.look(scene, picture)
     select_strokes(context, picture)
     return free
 
@@ -53,12 +53,8 @@ def leave_mode(context) -> None:
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-class STILLWATER_OT_open_picture(bpy.types.Operator):
-    """Open a still picture and make the scene ready to animate it: plane, camera, strokes, compositor"""
-
-    bl_idname = "stillwater.open_picture"
-    bl_label = "Open Picture"
-    bl_options = {"REGISTER", "UNDO"}
+class OfFiles:
+    """An operator that opens pictures from files."""
 
     filepath: StringProperty(name="Picture", subtype="FILE_PATH", options={"SKIP_SAVE", "HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
@@ -127,12 +123,28 @@ class STILLWATER_OT_open_picture(bpy.types.Operator):
             self.report({"INFO"}, rpt_("Your compositor stays as it is; the Stillwater node stands beside it"))
 
 
+class STILLWATER_OT_open_picture(OfFiles, bpy.types.Operator):
+    """Open a still picture and make the scene ready to animate it: plane, camera, strokes, compositor"""
+
+    bl_idname = "stillwater.open_picture"
+    bl_label = "Open Picture"
+    bl_options = {"REGISTER", "UNDO"}
+
+
+class STILLWATER_OT_drop_picture(OfFiles, bpy.types.Operator):
+    """Open a still picture in Stillwater. Blender asks by this name what is to become of a file that is dropped"""
+
+    bl_idname = "stillwater.drop_picture"
+    bl_label = "Open in Stillwater"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+
 class STILLWATER_FH_picture(bpy.types.FileHandler):
     """A picture that is dropped onto the 3D viewport."""
 
     bl_idname = "STILLWATER_FH_picture"
     bl_label = "Stillwater Picture"
-    bl_import_operator = STILLWATER_OT_open_picture.bl_idname
+    bl_import_operator = STILLWATER_OT_drop_picture.bl_idname
     bl_file_extensions = ";".join(EXTENSIONS)
 
     @classmethod
@@ -140,4 +152,4 @@ class STILLWATER_FH_picture(bpy.types.FileHandler):
         return context.area is not None and context.area.type == "VIEW_3D"
 
 
-CLASSES = [STILLWATER_OT_open_picture, STILLWATER_FH_picture]
+CLASSES = [STILLWATER_OT_open_picture, STILLWATER_OT_drop_picture, STILLWATER_FH_picture]

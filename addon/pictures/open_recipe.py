@@ -11,7 +11,7 @@ from .. import engine, strokes, versions
 from ..bake import job, places
 from ..compositor import tree as node
 from ..properties import arrange, image
-from ..recipe.read import fill_picture, refuse, strokes_of
+from ..recipe.read import NoPlace, fill_picture, refuse, strokes_of
 from ..ui import polls
 from . import place
 from . import scene as settings
@@ -88,7 +88,7 @@ class STILLWATER_OT_load_recipe(bpy.types.Operator):
         try:
             picture = open_recipe(context.scene, Path(bpy.path.abspath(self.filepath)))
         except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, error.translated(rpt_) if isinstance(error, NoPlace) else str(error))
             return {"CANCELLED"}
         try:
             settings.use_standard(context.scene)

@@ -14,6 +14,11 @@ class _Picture(sidebar.OfPicture):
     bl_order = 0
     bl_options = set()
 
+    def draw_header_preset(self, context):
+        row = self.layout.row()
+        row.emboss = "NONE"
+        row.operator("stillwater.fit_view", text="", icon="HOME")
+
     def draw(self, context):
         layout, scene = self.layout, context.scene
         picture = scene.stillwater.active()

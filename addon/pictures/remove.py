@@ -5,7 +5,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty
 
 from .. import versions
-from ..bake import job, places
+from ..bake import job, keeping, places
+from ..bake.operators import sentence_of
 from ..compositor import tree as node
 from ..properties import arrange, names
 from ..properties.picture import frame_size
@@ -162,22 +163,26 @@ class STILLWATER_OT_remove_picture(bpy.types.Operator):
     def execute(self, context):
         here = context.scene.stillwater
         picture = here.active()
-        name, files = picture.name, places.files_of(picture)
+        name, files, problem = picture.name, places.files_of(picture), ""
         leave_mode(context)
+        try:
+            if self.delete_files:
+                keeping.forget_prepared(context.scene, picture)
+        except OSError as error:
+            problem = sentence_of(error)
         remove(context.scene, here.active_picture)
         context.view_layer.update()
-        if not files:
-            return {"FINISHED"}
-        if not self.delete_files:
+        if files and not self.delete_files:
             sentence = rpt_("{name} is removed; its frames stay in {folder}")
             self.report({"INFO"}, sentence.format(name=name, folder=files.folder))
-            return {"FINISHED"}
-        try:
-            count = files.delete()
-        except OSError as error:
-            self.report({"WARNING"}, rpt_("{name} is removed, its files are not: {why}").format(name=name, why=error))
-        else:
-            self.report({"INFO"}, rpt_("{name} and {count} files are removed").format(name=name, count=count))
+        elif files:
+            try:
+                sentence = rpt_("{name} and {count} files are removed")
+                self.report({"INFO"}, sentence.format(name=name, count=files.delete()))
+            except OSError as error:
+                problem = sentence_of(error)
+        if problem:
+            self.report({"WARNING"}, rpt_("{name} is removed, its files are not: {why}").format(name=name, why=problem))
         return {"FINISHED"}
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bpy
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..bake import job, places
 from ..properties import image, migrate, names, paths
@@ -69,7 +70,8 @@ def _settle(filepath: str) -> None:
         try:
             moved = places.settle(picture, filepath)
         except OSError as error:
-            tree.stillwater.message = f"The frames stay in {tree.stillwater.folder}: {error}"
+            sentence = rpt_("The frames stay in {folder}: {why}")
+            tree.stillwater.message = sentence.format(folder=tree.stillwater.folder, why=error)
             continue
         if moved is not None:
             frames = tree.nodes["Frames"].image

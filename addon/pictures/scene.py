@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..compositor import tree as node
 from ..properties.picture import frame_size
+from . import fit
 
 STANDARD = {
     "view_transform": "Standard", "look": "None", "exposure": 0.0, "gamma": 1.0,
@@ -111,21 +112,23 @@ def show(scene, picture) -> bool:
     return False
 
 
-def look(scene) -> None:
+def look(scene, picture) -> None:
     """Makes every 3D viewport that shows the scene look through its camera, at the whole picture."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas if window.scene == scene else ():
             if area.type == "VIEW_3D":
-                _look_through(window, area)
+                _look_through(area, frame_size(picture))
 
 
-def _look_through(window, area) -> None:
+def _look_through(area, size: tuple[int, int]) -> None:
     view = area.spaces.active.region_3d
-    view.view_perspective, view.view_camera_offset = "CAMERA", (0, 0)
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        if not bpy.app.background and bpy.ops.view3d.view_center_camera.poll():
-            bpy.ops.view3d.view_center_camera()
+    view.view_perspective = "CAMERA"
+    boxes = {region: fit.Box(region.x, region.y, region.width, region.height) for region in area.regions}
+    viewport = next(box for region, box in boxes.items() if region.type == "WINDOW")
+    over = [(region.alignment, box) for region, box in boxes.items() if min(box.width, box.height) > 1]
+    within = fit.free(viewport, over)
+    if min(within.width, within.height) > 1:  # it was drawn already
+        view.view_camera_zoom, view.view_camera_offset = fit.view_of(viewport, within, size)
 
 
 def go_back(scene, camera_gone: bool, size: tuple[int, int]) -> None:

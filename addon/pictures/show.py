@@ -49,6 +49,28 @@ class STILLWATER_OT_show_picture(bpy.types.Operator):
         return {"FINISHED"}
 
 
+class STILLWATER_OT_fit_view(bpy.types.Operator):
+    """See the whole picture: look through its camera, beside the sidebar"""
+
+    bl_idname = "stillwater.fit_view"
+    bl_label = "Fit View to Picture"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        if not polls.own_picture(cls, context):
+            return False
+        camera = context.scene.stillwater.active().camera
+        if camera is None or context.scene.camera != camera:
+            cls.poll_message_set(tip_("The scene's camera sees something else; use Show Picture first"))
+            return False
+        return True
+
+    def execute(self, context):
+        settings.look(context.scene, context.scene.stillwater.active())
+        return {"FINISHED"}
+
+
 class STILLWATER_OT_standard_view(bpy.types.Operator):
     """Set the view transform to Standard, so that renders have the picture's own colors"""
 
@@ -99,4 +121,4 @@ class STILLWATER_OT_former_view(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = [STILLWATER_OT_show_picture, STILLWATER_OT_standard_view, STILLWATER_OT_former_view]
+CLASSES = [STILLWATER_OT_show_picture, STILLWATER_OT_fit_view, STILLWATER_OT_standard_view, STILLWATER_OT_former_view]

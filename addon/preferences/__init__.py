@@ -1,4 +1,4 @@
-"""What a person prefers, whatever file is open: `preferences.of(context)`."""
+"""What a person prefers, whatever file is open, `preferences.of(context)`, and where what is theirs lies, `user_folder`."""
 
 import os
 from pathlib import Path
@@ -16,6 +16,11 @@ PACKAGE = __package__.rpartition(".")[0]
 def of(context):
     """The extension's preferences."""
     return context.preferences.addons[PACKAGE].preferences
+
+
+def user_folder(name: str) -> Path:
+    """A folder of the extension's in the user's folder, which outlives updates; made where it is missing."""
+    return Path(bpy.utils.extension_path_user(PACKAGE, path=name, create=True))
 
 
 def _try_python(self, context) -> None:

@@ -1,4 +1,4 @@
-"""Which strokes are being drawn just now, and the tool settings to go back to."""
+"""Which strokes are being drawn just now, and the settings to go back to."""
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -14,6 +14,7 @@ class STILLWATER_PG_drawing(bpy.types.PropertyGroup):
     lock_axis: StringProperty(options={"HIDDEN"})
     auto_key: BoolProperty(options={"HIDDEN"})
     new_layer: BoolProperty(options={"HIDDEN"})  # of a layer that was made for it: one stroke, and it is done
+    shelf: BoolProperty(options={"HIDDEN"})  # viewports showed the shelf of brushes
 
 
 CLASSES = [STILLWATER_PG_drawing]

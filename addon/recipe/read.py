@@ -16,7 +16,15 @@ FORMS = ("file", "labels", "scribbles", "lasso", "trimap")
 
 
 class NoPlace(ValueError):
-    """A part of a recipe that the extension's properties can't hold."""
+    """A part of a recipe that the extension's properties can't hold. `sentence` has its `names` in braces."""
+
+    def __init__(self, sentence: str, **names):
+        super().__init__(sentence.format(**names))
+        self._sentence, self._names = sentence, names
+
+    def translated(self, said: Callable[[str], str]) -> str:
+        """The sentence as `said` has it."""
+        return said(self._sentence).format(**self._names)
 
 
 def fill_picture(picture, recipe: dict, locate: Locate, set_curve: SetCurve, add_layer) -> None:
@@ -43,7 +51,8 @@ def refuse(recipe: dict) -> None:
     for i, layer in enumerate(recipe["layers"]):
         place, matte, fill, motion = f"layers[{i}]", layer["matte"], layer["fill"], layer["motion"]
         if motion["type"] not in MOTIONS:
-            raise NoPlace(f'{place}.motion.type: "{motion["type"]}" can\'t be opened in Blender yet')
+            sentence = '{place}.motion.type: "{motion}" can\'t be opened in Blender yet'
+            raise NoPlace(sentence, place=place, motion=motion["type"])
         seeds[f"{place}.motion.seed"] = motion.get("seed")
         for part, said in ((f"{place}.matte", matte or {}), (f"{place}.fill.source", fill.get("source") or {})):
             seeds[f"{part}.value"] = said.get("value")
@@ -51,7 +60,8 @@ def refuse(recipe: dict) -> None:
             seeds[f"{place}.fill.touch_up[{j}].seed"] = touch_up["seed"] + 1  # 0 is kept for none of its own
     for place, seed in seeds.items():
         if seed is not None and seed > WIDEST:
-            raise NoPlace(f"{place}: {seed} is above what Blender can hold ({WIDEST})")
+            sentence = "{place}: {seed} is above what Blender can hold ({widest})"
+            raise NoPlace(sentence, place=place, seed=seed, widest=WIDEST)
 
 
 class _Writer:

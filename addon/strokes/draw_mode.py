@@ -2,7 +2,8 @@
 
 What is being drawn, and the tool settings to go back to, stand in the scene (properties/drawing.py). The artist may
 leave by Blender's own ways too (Tab, the mode menu, undo): a timer sees it and puts settings and status bar back. Undo
-brings back what stands in a scene, but never its tool settings: which scenes have ours is kept here besides.
+brings back what stands in a scene, but never its tool settings: which scenes have ours is kept here besides. Meanwhile
+the shelf of brushes, which lies over the lower part of the picture, is away; whoever wants another brush opens it.
 """
 
 import bpy
@@ -21,6 +22,7 @@ BRUSH = "GREASE_PENCIL_OT_brush_stroke"
 finished = []  # called with scene, picture, layer and role when a layer's strokes are drawn; rooms add themselves
 
 _before: dict[int, tuple] = {}  # by the session_uid of a scene that has our tool settings: its own
+_shelves: dict[int, bool] = {}  # by the session_uid of a scene whose viewports have no shelf: whether one had it
 _told: set[str] = set()  # workspaces whose status bar has our hint
 
 
@@ -43,6 +45,7 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     drawing.role, drawing.picture_id, drawing.layer_id = role.key, picture.id, layer_id
     drawing.new_layer = False
     drawing.placement, drawing.lock_axis, drawing.auto_key = _settings(scene)
+    drawing.shelf = False
     bpy.ops.object.mode_set(mode=MODE)
     bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
     look_after()
@@ -90,8 +93,9 @@ def hint(scene) -> str:
 
 def look_after(*_) -> None:
     """Settings, status bar and timer as the scenes say; after an undo step or a file that was opened, too."""
-    for uid in _before.keys() - {scene.session_uid for scene in bpy.data.scenes}:
-        del _before[uid]
+    for kept in (_before, _shelves):
+        for uid in kept.keys() - {scene.session_uid for scene in bpy.data.scenes}:
+            del kept[uid]
     for scene in bpy.data.scenes:
         _settle(scene)
     _tell_status()
@@ -107,6 +111,8 @@ def tick() -> float | None:
         elif scene.stillwater.drawing.new_layer and _has_one(scene):
             finish(scene)
             bpy.ops.ed.undo_push(message="New Layer from Outline")
+        elif scene.stillwater.drawing.role and scene.session_uid not in _shelves:
+            _take_shelf_away(scene)
     return INTERVAL if any(scene.stillwater.drawing.role for scene in bpy.data.scenes) else None
 
 
@@ -133,6 +139,7 @@ def stop() -> None:
     for scene in bpy.data.scenes:
         leave(scene)
     _before.clear()
+    _shelves.clear()
     if bpy.app.timers.is_registered(tick):
         bpy.app.timers.unregister(tick)
 
@@ -184,6 +191,37 @@ def _settle(scene) -> None:
         _set(scene, "ORIGIN", "AXIS_Z", keyed and drawing.auto_key)  # across z: of the grease-pencil layer's own space
     elif uid in _before:
         _set(scene, *_before.pop(uid))
+        if _shelves.pop(uid, False):
+            _show_shelf(scene, True)
+
+
+def _take_shelf_away(scene) -> None:
+    """From the scene's viewports; once, so that whoever opens it has it. Before they were drawn it can't be told."""
+    spaces = [area.spaces.active for _, area in _viewports(scene)]
+    if any(space.is_property_readonly("show_region_asset_shelf") for space in spaces):
+        return
+    drawing = scene.stillwater.drawing
+    drawing.shelf = drawing.shelf or any(space.show_region_asset_shelf for space in spaces)  # or: in a file from meanwhile
+    _shelves[scene.session_uid] = drawing.shelf
+    _show_shelf(scene, False)
+
+
+def _show_shelf(scene, shown: bool) -> None:
+    """Out of draw mode the property is read-only, but not the region that it stands for."""
+    for window, area in _viewports(scene):
+        space = area.spaces.active
+        if space.is_property_readonly("show_region_asset_shelf"):
+            if space.show_region_asset_shelf != shown:
+                with bpy.context.temp_override(window=window, area=area):
+                    bpy.ops.screen.region_toggle(region_type="ASSET_SHELF")
+        else:
+            space.show_region_asset_shelf = shown
+
+
+def _viewports(scene) -> list[tuple]:
+    """The 3D viewports that show the scene, each with its window."""
+    shown = [window for window in bpy.context.window_manager.windows if window.scene == scene]
+    return [(window, area) for window in shown for area in window.screen.areas if area.type == "VIEW_3D"]
 
 
 def _keep_last(part) -> None:

@@ -1,4 +1,4 @@
-"""The roles that the active layer's and the picture's strokes have: drawn or not, with a button each."""
+"""The roles that the active layer's and the picture's strokes have: drawn, typed or not yet, with a button each."""
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
@@ -35,9 +35,10 @@ def _offered(picture, layer) -> list[roles.Role]:
 def _draw_role(context, layout, picture, layer, role: roles.Role) -> None:
     layer_id, drawing = layer.id if layer else "", context.scene.stillwater.drawing
     drawn = read.is_drawn(context.scene, picture, layer_id, role)
+    known = drawn or role.is_typed(layer.motion.numbers() if layer else picture.view)
     row = layout.row(align=True)
     row.operator(
-        "stillwater.draw_stroke", text=role.name, icon="CHECKMARK" if drawn else "GREASEPENCIL",
+        "stillwater.draw_stroke", text=role.name, icon="CHECKMARK" if known else "GREASEPENCIL",
         depress=(drawing.role, drawing.picture_id, drawing.layer_id) == (role.key, picture.id, layer_id),
     ).role = role.key
     if drawn:

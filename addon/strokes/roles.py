@@ -23,21 +23,25 @@ class Role:
     geometry: Callable  # strokes -> what the recipe has for them, None where they say nothing
     of: str = ""  # what of a layer they say, and its form: "matte.scribbles", "fill.exemplar", "source.lasso"
     points: int = 2  # a stroke with fewer says nothing
+    is_typed: Callable = lambda numbers: False  # whether the numbers that strokes stand for say it as well
 
 
 ROLES = (
     Role(
         key="sway_line", number=1, name="Sway Line", motion="sway", replaces=("armature_root", "armature_tip"),
+        is_typed=lambda sway: tuple(sway.armature_root) != tuple(sway.armature_tip),
         colour=(1.0, 0.45, 0.05), icon="IPO_ELASTIC", one=True, keyed=False, geometry=lines.ends,
         hint="Draw from the root, which is held, to the tip, which sways; a new line replaces the former",
     ),
     Role(
         key="waterline", number=2, name="Waterline", motion="bob", replaces=("waterline",),
+        is_typed=lambda bob: len(bob.waterline) > 1,
         colour=(0.0, 0.75, 1.0), icon="MOD_OCEAN", one=True, keyed=False, geometry=lines.polyline,
         hint="Draw along the hull where it meets the water; a new line replaces the former",
     ),
     Role(
         key="horizon", number=3, name="Horizon", motion="", replaces=("use_horizon", "horizon_start", "horizon_end"),
+        is_typed=lambda view: view.use_horizon and tuple(view.horizon_start) != tuple(view.horizon_end),
         colour=(1.0, 0.1, 0.7), icon="REMOVE", one=True, keyed=False, geometry=lines.straight_line,
         hint="Draw along the horizon, where the water would end; a new line replaces the former",
     ),

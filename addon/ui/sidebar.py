@@ -70,10 +70,24 @@ def draw_all(layout, group) -> None:
 
 
 def draw(layout, group, *names: str) -> None:
-    """Properties that belong together, closely below each other, with the units that Blender would not show."""
+    """Properties that belong together, closely below each other, with the units that Blender would not show.
+
+    Below a path stands its file's name: Blender cuts off the end of what is longer than the field.
+    """
     column = layout.column(align=True)
     for name in names:
-        column.prop(group, name, text=label(group.bl_rna.properties[name]))
+        kind = group.bl_rna.properties[name]
+        column.prop(group, name, text=label(kind))
+        if kind.type == "STRING" and kind.subtype == "FILE_PATH" and (file := file_of(getattr(group, name))):
+            row = column.row()
+            row.alignment = "RIGHT"
+            row.label(text=file, icon="FILE_IMAGE")
+
+
+def file_of(path: str) -> str:
+    """The name of a file whose path is longer than that."""
+    name = path.replace("\\", "/").rpartition("/")[2]
+    return name if name != path else ""
 
 
 def label(kind) -> str:

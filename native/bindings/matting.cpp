@@ -1,9 +1,14 @@
+#include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
+
+#include <opencv2/imgproc.hpp>
 
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
 #include "layers/closed_form.h"
+#include "layers/coarse_to_fine.h"
+#include "layers/colour_clusters.h"
 #include "layers/colour_samples.h"
 #include "layers/drawn_trimap.h"
 #include "layers/foreground.h"
@@ -13,6 +18,14 @@ namespace stillwater {
 namespace {
 
 using NoGil = py::gil_scoped_release;
+
+// The array itself where it has four channels; three get an alpha of 1.
+Rgba colours_of(const FloatArray& picture) {
+  if (picture.ndim() != 3 || picture.shape(2) != 3) return as_image<cv::Vec4f>(picture, "picture");
+  Rgba opaque;
+  cv::cvtColor(as_image<cv::Vec3f>(picture, "picture"), opaque, cv::COLOR_RGB2RGBA);
+  return opaque;
+}
 
 // The system's rows, in the order of the unknown pixels: (pixel, other pixel, coefficient) and the right-hand side.
 py::tuple laplacian_arrays(const FloatArray& picture, const FloatArray& trimap, double epsilon) {
@@ -75,7 +88,7 @@ py::array_t<float> lassoed(const FloatArray& picture, const std::vector<std::arr
                            double snap) {
   Lasso lasso{{}, feather, snap};
   for (const auto& [x, y] : outline) lasso.outline.push_back({x, y});
-  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Rgba image = colours_of(picture);
   Plane trimap;
   {
     const NoGil released;
@@ -99,9 +112,28 @@ py::tuple colour_sample_arrays(const FloatArray& picture, const FloatArray& trim
   return py::make_tuple(as_array(samples.foreground), as_array(samples.background), as_array(samples.misfit));
 }
 
+// The clusters' means and covariances.
+py::list cluster_list(const FloatArray& colours, const std::vector<double>& weights, const ClusterOptions& options) {
+  const auto image = as_image<cv::Vec3f>(colours, "colours");
+  std::vector<WeightedColour> given;
+  for (size_t i = 0; i < weights.size() && i < image.total(); ++i) {
+    const cv::Vec3f& c = image(static_cast<int>(i));
+    given.push_back({{c[0], c[1], c[2]}, weights[i]});
+  }
+  py::list clusters;
+  for (const ColourCluster& cluster : colour_clusters(given, options))
+    clusters.append(py::make_tuple(cluster.mean, cluster.covariance));
+  return clusters;
+}
+
+py::array_t<float> enlarged(const FloatArray& matte, const FloatArray& half, const FloatArray& picture) {
+  return as_array(enlarge_matte(as_image<float>(matte, "matte"), as_image<cv::Vec4f>(half, "half"),
+                                as_image<cv::Vec4f>(picture, "picture")));
+}
+
 py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trimap, const MatteOptions& options,
                                const Progress::Listener& progress) {
-  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Rgba image = colours_of(picture);
   const Trimap labels = trimap_from_grey(as_image<float>(trimap, "trimap"));
   Plane alpha;
   {
@@ -113,7 +145,7 @@ py::array_t<float> matte_array(const FloatArray& picture, const FloatArray& trim
 
 py::tuple foreground_arrays(const FloatArray& picture, const FloatArray& alpha, const ForegroundOptions& options,
                             const Progress::Listener& progress) {
-  const Rgba image = as_image<cv::Vec4f>(picture, "picture");
+  const Rgba image = colours_of(picture);
   const Plane matte = as_image<float>(alpha, "alpha");
   ForegroundAndBackground colours;
   {
@@ -134,6 +166,7 @@ void bind_matting(py::module_& module) {
       .def_readwrite("method", &MatteOptions::method)
       .def_readwrite("colour", &MatteOptions::colour)
       .def_readwrite("at_once", &MatteOptions::at_once)
+      .def_readwrite("at_once_scribbled", &MatteOptions::at_once_scribbled)
       .def_readwrite("finest", &MatteOptions::finest)
       .def_readwrite("haze", &MatteOptions::haze)
       .def_readwrite("tolerance", &MatteOptions::tolerance);
@@ -149,12 +182,25 @@ void bind_matting(py::module_& module) {
   module.def("trimap_from_scribbles", &scribbled, py::arg("size"), py::arg("foreground"), py::arg("background"));
   module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"), py::arg("snap"));
   module.def("trimap_from_grey", &checked_trimap, py::arg("grey"));
+  py::class_<ClusterOptions>(module, "ClusterOptions")
+      .def(py::init<>())
+      .def_readwrite("variance", &ClusterOptions::variance)
+      .def_readwrite("most", &ClusterOptions::most)
+      .def_readwrite("noise", &ClusterOptions::noise);
+  module.def("colour_clusters", &cluster_list, py::arg("colours"), py::arg("weights"),
+             py::arg("options") = ClusterOptions());
+  module.def("half_of", [](const FloatArray& picture) { return as_array(half_of(as_image<cv::Vec4f>(picture, "picture"))); },
+             py::arg("picture"));
+  module.def("half_of_trimap", [](const FloatArray& trimap) {
+    return as_array(grey_of(half_of(trimap_from_grey(as_image<float>(trimap, "trimap")))));
+  }, py::arg("trimap"));
+  module.def("enlarge_matte", &enlarged, py::arg("matte"), py::arg("half"), py::arg("picture"));
   module.def("matting_laplacian", &laplacian_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon"));
   module.def("sample_colours", &colour_sample_arrays, py::arg("picture"), py::arg("trimap"), py::arg("iterations") = 8,
              py::arg("nearness") = 1.0);
   module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
              py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
-             py::arg("spacing") = 6);
+             py::arg("spacing") = 8);
   module.def("matte", &matte_array, py::arg("picture"), py::arg("trimap"), py::arg("options") = MatteOptions(),
              py::arg("progress") = Progress::Listener());
   module.def("foreground_and_background", &foreground_arrays, py::arg("picture"), py::arg("alpha"),

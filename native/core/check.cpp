@@ -69,9 +69,11 @@ void not_empty(std::string_view name, const cv::Mat& image) {
 
 void finite_colours(std::string_view name, const Rgba& image) {
   for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      for (int c = 0; c < 3; ++c)
-        if (!std::isfinite(image(y, x)[c])) finite(place(name, y, x), image(y, x)[c]);
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Vec4f& colour = image(y, x);
+      if (std::isfinite(colour[0] + colour[1] + colour[2])) continue;
+      for (int c = 0; c < 3; ++c) finite(place(name, y, x), colour[c]);
+    }
 }
 
 void each_in_range(std::string_view name, const Plane& plane, double low, double high) {

@@ -12,6 +12,11 @@ namespace stillwater {
 /// thrown by a piece reaches the caller.
 void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work);
 
+/// The same, in turns short enough that `at`, called between them with the share of the rows that is done, can report and
+/// cancel: what it throws ends the work.
+void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work,
+                   const std::function<void(double share)>& at);
+
 /// Calls `work(y, x)` for every pixel of an image of this size; rows are the pieces' borders.
 template <class Work>
 void parallel_pixels(const cv::Size& size, const Work& work) {

@@ -11,9 +11,6 @@
 namespace stillwater {
 namespace {
 
-constexpr float screen = 0.003f;
-// A difference of colours (its square) that is a step of tone more than an edge.
-constexpr float step_of_tone = 0.01f;
 constexpr int most_rounds = 400;
 constexpr double good_enough = 1e-4;  // of the residual at the start
 constexpr int grain = 4096;
@@ -33,7 +30,8 @@ struct Link {
 
 class Equation {
  public:
-  Equation(const ShiftMap& shifts, const Mask& hole, const Rgba& colour) : size_(hole.size()), number_(size_, -1) {
+  Equation(const ShiftMap& shifts, const Mask& hole, const Rgba& colour, const BlendParameters& parameters)
+      : parameters_(parameters), size_(hole.size()), number_(size_, -1) {
     for (int y = 0; y < size_.height; ++y)
       for (int x = 0; x < size_.width; ++x)
         if (hole(y, x)) number_(y, x) = static_cast<int>(places_.size()), places_.push_back({x, y});
@@ -87,8 +85,8 @@ class Equation {
   void describe(int i, const ShiftMap& shifts, const Mask& hole, const Rgba& colour) {
     const cv::Rect inside(cv::Point(), size_);
     const cv::Point p = places_[i], ours = shift(shifts, p);
-    cv::Vec4f right = screen * colour(p);
-    float diagonal = screen;
+    cv::Vec4f right = parameters_.screen * colour(p);
+    float diagonal = parameters_.screen;
     for (size_t k = 0; k < steps.size(); ++k) {
       const cv::Point q = p + steps[k];
       neighbours_[i][k] = {};
@@ -108,7 +106,7 @@ class Equation {
         unlike = std::max(unlike, squared(colour(p + theirs) - colour(p)));
       }
       if (views == 0) continue;
-      const float weight = step_of_tone / (step_of_tone + unlike);
+      const float weight = parameters_.step_of_tone / (parameters_.step_of_tone + unlike);
       right -= change * (weight / static_cast<float>(views));
       diagonal += weight;
       if (open) neighbours_[i][k] = {number_(q), weight};
@@ -149,6 +147,7 @@ class Equation {
     return all;
   }
 
+  BlendParameters parameters_;
   cv::Size size_;
   cv::Mat_<int> number_;
   std::vector<cv::Point> places_;
@@ -159,14 +158,14 @@ class Equation {
 
 }  // namespace
 
-void blend_seams(const ShiftMap& shifts, const Mask& hole, Rgba& colour, const std::function<void(double)>& at) {
+void blend_seams(const ShiftMap& shifts, const Mask& hole, Rgba& colour, const BlendParameters& parameters,
+                 const std::function<void(double)>& at) {
   const Rgba copies = colour.clone();
-  Equation(shifts, hole, colour).solve(colour, at);
+  Equation(shifts, hole, colour, parameters).solve(colour, at);
   for (int y = 0; y < hole.rows; ++y)
     for (int x = 0; x < hole.cols; ++x) {
       if (!hole(y, x)) continue;
       cv::Vec4f& pixel = colour(y, x);
-      // Not darker or brighter than what there is: above white only where the copy was.
       const cv::Vec4f& copy = copies(y, x);
       pixel[3] = std::clamp(pixel[3], 0.0f, 1.0f);
       for (int c = 0; c < 3; ++c) pixel[c] = std::clamp(pixel[c], std::min(0.0f, copy[c]), std::max(pixel[3], copy[c]));

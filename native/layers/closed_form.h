@@ -12,7 +12,7 @@ struct ClosedFormOptions {
   double tolerance = 1e-5;           ///< alpha
   std::optional<MattePrior> prior = {};   ///< what is thought of alpha before
   std::optional<Plane> start = {};        ///< a matte that is near, of the picture's size
-  int spacing = 6;                   ///< pixels between the nodes of the multigrid's first coarse grid
+  int spacing = 8;                   ///< pixels between the nodes of the multigrid's first coarse grid
 };
 
 struct ClosedFormMatte {

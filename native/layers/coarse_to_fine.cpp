@@ -62,6 +62,12 @@ bool has_both(const Trimap& trimap) {
   return total.foreground > 0 && total.background > 0;
 }
 
+bool can_be_solved_at_once(const Trimap& trimap, const CoarseToFineOptions& options) {
+  const long long unknown = count(trimap).unknown;
+  const bool scribbled = 4 * unknown > 3 * static_cast<long long>(trimap.total());
+  return unknown <= (scribbled ? options.at_once_scribbled : options.at_once);
+}
+
 }  // namespace
 
 Rgba half_of(const Rgba& picture) {
@@ -116,7 +122,7 @@ Plane enlarge_matte(const Plane& matte, const Rgba& half, const Rgba& picture) {
 Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options, const SolveLevel& solve) {
   const bool enlarge_only = options.finest > 1;
   const bool small = std::min(picture.rows, picture.cols) < 8;
-  if (small || (!enlarge_only && count(trimap).unknown <= options.at_once)) return solve(picture, trimap, {});
+  if (small || (!enlarge_only && can_be_solved_at_once(trimap, options))) return solve(picture, trimap, {});
   const Trimap half_trimap = half_of(trimap);
   if (!has_both(half_trimap)) return solve(picture, trimap, {});
   const Rgba half = half_of(picture);

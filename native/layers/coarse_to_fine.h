@@ -7,9 +7,10 @@
 namespace stillwater {
 
 struct CoarseToFineOptions {
-  int at_once = 100000;    ///< unknown pixels that are solved without a smaller picture first
-  int finest = 1;          ///< 1, 2, 4, ...: the picture is solved this many times smaller, and the matte enlarged
-  double decided = 0.02;   ///< alpha; what comes as near to 0 or 1 as this from the smaller picture is decided
+  int at_once = 400000;           ///< unknown pixels that are solved without a smaller picture first
+  int at_once_scribbled = 60000;  ///< the same where more than three quarters of the picture are unknown
+  int finest = 1;                 ///< 1, 2, 4, ...: the picture is solved this many times smaller, and the matte enlarged
+  double decided = 0.02;          ///< alpha; what comes as near to 0 or 1 as this from the smaller picture is decided
 };
 
 /// Solves one level: a picture, what is known of it, and a matte that is near (empty on the first level). Gives alpha
@@ -19,6 +20,9 @@ using SolveLevel = std::function<Plane(const Rgba& picture, const Trimap& trimap
 /// A matte from coarse to fine (Levin, Lischinski and Weiss 2008, 4.1): where more is unknown than can be solved at once,
 /// half the picture is solved first, the same way. Its matte is enlarged as an affine function of colour
 /// (enlarge_matte); what it leaves no doubt about is known from then on, and the rest is solved again.
+///
+/// Scribbles leave large areas open, of which half the picture decides most; a trimap's unknown band holds what only all
+/// of the picture's detail can decide.
 ///
 /// `trimap` has foreground and background.
 Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options, const SolveLevel& solve);

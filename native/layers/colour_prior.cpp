@@ -47,7 +47,7 @@ double distance_between(const cv::Vec4f& a, const cv::Vec4f& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// How far known pixels around each unknown one can speak for its colours, 0..1: in a box half again as wide as the
+// How far known pixels around each unknown one can speak for its colours, 0..1: in a box three times as wide as the
 // distance to both kinds, a share of `crowd` must be known, of either kind.
 Plane trust_in_known(const Trimap& trimap, double crowd) {
   Plane trust = Plane::zeros(trimap.size());
@@ -62,7 +62,7 @@ Plane trust_in_known(const Trimap& trimap, double crowd) {
     for (int y = first; y < last; ++y)
       for (int x = 0; x < trimap.cols; ++x) {
         if (trimap(y, x) != known::unknown) continue;
-        const int reach = static_cast<int>(1.5f * std::max(distances[0](y, x), distances[1](y, x))) + 2;
+        const int reach = static_cast<int>(3 * std::max(distances[0](y, x), distances[1](y, x))) + 2;
         const int top = std::max(0, y - reach), bottom = std::min(trimap.rows, y + reach + 1);
         const int left = std::max(0, x - reach), right = std::min(trimap.cols, x + reach + 1);
         int least = std::numeric_limits<int>::max();

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int grain = 16;
 constexpr float levels = 255;
+// Each pair that is tried at random is this much nearer to the best one than the one before.
+constexpr double narrowing = 0.4;
 
 struct Sample {
   float red, green, blue, x, y;
@@ -86,19 +88,19 @@ class Search {
       if (const int ny = y + dy, nx = x + dx; ny >= 0 && nx >= 0 && ny < picture_.rows && nx < picture_.cols)
         if (costs_(ny, nx) < std::numeric_limits<float>::infinity()) consider({pairs_(ny, nx)[0], pairs_(ny, nx)[1]});
     const auto fronts = static_cast<double>(fronts_.size()), backs = static_cast<double>(backs_.size());
-    double reach = 1;
-    for (int step = 0; reach * std::max(fronts, backs) > 1; ++step, reach /= 2) {
-      const std::uint64_t bits = random_bits(options_.seed, {static_cast<std::int64_t>(y) * picture_.cols + x, round, step});
-      consider({near(best.front, reach * fronts, fronts_.size(), bits & 0xffffffff),
-                near(best.back, reach * backs, backs_.size(), bits >> 32)});
+    std::uint64_t bits = random_bits(options_.seed, {y, x, round});
+    for (double reach = 1; reach * std::max(fronts, backs) > 1; reach *= narrowing) {
+      bits = bits * 6364136223846793005u + 1442695040888963407u;  // Knuth's; its high bits are good
+      consider({near(best.front, reach * fronts, fronts_.size(), bits >> 40),
+                near(best.back, reach * backs, backs_.size(), bits >> 16 & 0xffffff)});
     }
     pairs_(y, x) = {best.front, best.back};
     costs_(y, x) = least;
   }
 
-  // A sample's number, no further than `reach` from `centre`.
+  // A sample's number, by 24 random bits, no further than `reach` from `centre`.
   static int near(int centre, double reach, size_t count, std::uint64_t random) {
-    const double share = static_cast<double>(static_cast<std::int64_t>(random)) * (2 / 4294967296.0) - 1;
+    const double share = static_cast<double>(static_cast<std::int64_t>(random)) * (2 / 16777216.0) - 1;
     return std::clamp(centre + static_cast<int>(share * reach), 0, static_cast<int>(count) - 1);
   }
 

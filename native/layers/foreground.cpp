@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/check.h"
@@ -27,6 +28,7 @@ int nearest(int place, int size, int other_size) {
 }
 
 Plane resized(const Plane& plane, const cv::Size& size) {
+  if (plane.size() == size) return plane;
   Plane result(size);
   std::vector<int> columns(static_cast<size_t>(size.width));
   for (int x = 0; x < size.width; ++x) columns[x] = nearest(x, size.width, plane.cols);
@@ -63,77 +65,100 @@ Rgba merged(const Colours& planes) {
   return picture;
 }
 
+// The mean colour of what is nearly all foreground, or background; of every so many pixels, which is enough to start.
 Colours mean_where(const Level& level, bool front) {
+  const int step = std::max(1, std::max(level.alpha.rows, level.alpha.cols) / 256);
+  std::array<double, colours> sum{};
+  double count = 0;
+  for (int y = 0; y < level.alpha.rows; y += step)
+    for (int x = 0; x < level.alpha.cols; x += step) {
+      if (front ? level.alpha(y, x) <= 0.9f : level.alpha(y, x) >= 0.1f) continue;
+      for (int c = 0; c < colours; ++c) sum[c] += level.picture[c](y, x);
+      ++count;
+    }
   Colours mean;
-  for (int c = 0; c < colours; ++c) {
-    double sum = 0, weight = 0;
-    for (int y = 0; y < level.alpha.rows; ++y)
-      for (int x = 0; x < level.alpha.cols; ++x)
-        if (front ? level.alpha(y, x) > 0.9f : level.alpha(y, x) < 0.1f) sum += level.picture[c](y, x), ++weight;
-    mean[c] = Plane(1, 1, static_cast<float>(weight > 0 ? sum / weight : 0));
-  }
+  for (int c = 0; c < colours; ++c) mean[c] = Plane(1, 1, static_cast<float>(count > 0 ? sum[c] / count : 0));
   return mean;
 }
 
-// Solves eq. 4 at each pixel of a row, its neighbours being what they are.
+// A row of numbers that no other row overlaps.
+using Numbers = float* __restrict;
+using Given = const float* __restrict;
+
+// Eq. 4 at each pixel of one row: how much its four neighbours count, and the inverse of its 2 x 2 system.
+class RowSystem {
+ public:
+  explicit RowSystem(int width) : stride_(static_cast<size_t>(width)), buffer_(7 * stride_) {}
+
+  void find(const Plane& alpha, int y, float flat, float steep) {
+    const int width = alpha.cols;
+    Given same = alpha[y], over = alpha[std::max(0, y - 1)], under = alpha[std::min(alpha.rows - 1, y + 1)];
+    Numbers up = row(0), down = row(1), left = row(2), right = row(3), front = row(4), back = row(5), cross = row(6);
+    left[0] = right[width - 1] = flat;
+    for (int x = 1; x < width; ++x) left[x] = flat + steep * std::abs(same[x] - same[x - 1]);
+    for (int x = 0; x < width - 1; ++x) right[x] = flat + steep * std::abs(same[x] - same[x + 1]);
+    for (int x = 0; x < width; ++x) {
+      const float a = same[x], b = 1 - a;
+      up[x] = flat + steep * std::abs(a - over[x]);
+      down[x] = flat + steep * std::abs(a - under[x]);
+      const float sum = (up[x] + down[x]) + (left[x] + right[x]);
+      const float first = a * a + sum, last = b * b + sum, both = a * b, scale = 1 / (first * last - both * both);
+      front[x] = last * scale;
+      back[x] = first * scale;
+      cross[x] = both * scale;
+    }
+  }
+
+  float* row(int i) { return &buffer_[static_cast<size_t>(i) * stride_]; }
+
+ private:
+  size_t stride_;
+  std::vector<float> buffer_;
+};
+
+// Solves one colour of a row, its neighbours being what they are.
 class RowSolver {
  public:
   RowSolver(const ForegroundOptions& options, float highest, int width)
       : flat_(static_cast<float>(options.regularization)), steep_(static_cast<float>(options.gradient_weight)),
-        highest_(highest) {
-    for (auto* buffer : {&up_, &down_, &left_, &right_, &same_front_, &same_back_, &cross_, &new_front_, &new_back_})
-      buffer->resize(static_cast<size_t>(width));
-  }
+        highest_(highest), system_(width), sums_(2 * static_cast<size_t>(width)) {}
 
   void solve(Level& level, int y) {
-    const int width = level.alpha.cols, above = std::max(0, y - 1), below = std::min(level.alpha.rows - 1, y + 1);
-    find_weights(level.alpha, y, above, below, width);
+    system_.find(level.alpha, y, flat_, steep_);
     for (int c = 0; c < colours; ++c) {
-      const Plane& front = level.front[c];
-      const Plane& back = level.back[c];
-      solve_colour({front[above], front[y], front[below]}, {back[above], back[y], back[below]}, level.picture[c][y],
-                   level.alpha[y], width);
-      std::copy_n(new_front_.data(), width, level.front[c][y]);
-      std::copy_n(new_back_.data(), width, level.back[c][y]);
+      const int width = level.alpha.cols;
+      Numbers front = &sums_[0], back = &sums_[static_cast<size_t>(width)];
+      sum_neighbours(level.front[c], y, front);
+      sum_neighbours(level.back[c], y, back);
+      mix(level.alpha[y], level.picture[c][y], front, back, level.front[c][y], level.back[c][y], width);
     }
   }
 
  private:
-  using Rows = std::array<const float*, 3>;  // above, same, below
+  void sum_neighbours(const Plane& plane, int y, Numbers sum) {
+    const int width = plane.cols;
+    Given over = plane[std::max(0, y - 1)], same = plane[y], under = plane[std::min(plane.rows - 1, y + 1)];
+    Given up = system_.row(0), down = system_.row(1), left = system_.row(2), right = system_.row(3);
+    for (int x = 1; x < width - 1; ++x)
+      sum[x] = (up[x] * over[x] + down[x] * under[x]) + (left[x] * same[x - 1] + right[x] * same[x + 1]);
+    for (const int x : {0, width - 1})
+      sum[x] = (up[x] * over[x] + down[x] * under[x]) +
+               (left[x] * same[std::max(0, x - 1)] + right[x] * same[std::min(width - 1, x + 1)]);
+  }
 
-  void find_weights(const Plane& alpha, int y, int above, int below, int width) {
-    const float *same = alpha[y], *over = alpha[above], *under = alpha[below];
+  void mix(Given alpha, Given picture, Given front_sum, Given back_sum, Numbers front, Numbers back, int width) {
+    Given own_front = system_.row(4), own_back = system_.row(5), cross = system_.row(6);
     for (int x = 0; x < width; ++x) {
-      const float a = same[x], before = same[std::max(0, x - 1)], after = same[std::min(width - 1, x + 1)];
-      up_[x] = flat_ + steep_ * std::abs(a - over[x]);
-      down_[x] = flat_ + steep_ * std::abs(a - under[x]);
-      left_[x] = flat_ + steep_ * std::abs(a - before);
-      right_[x] = flat_ + steep_ * std::abs(a - after);
-      const float sum = (up_[x] + down_[x]) + (left_[x] + right_[x]), rest = 1 - a;
-      const float front = a * a + sum, back = rest * rest + sum, both = a * rest;
-      const float scale = 1 / (front * back - both * both);
-      same_front_[x] = back * scale;
-      same_back_[x] = front * scale;
-      cross_[x] = both * scale;
+      const float f = alpha[x] * picture[x] + front_sum[x], b = (1 - alpha[x]) * picture[x] + back_sum[x];
+      const float new_front = own_front[x] * f - cross[x] * b, new_back = own_back[x] * b - cross[x] * f;
+      front[x] = std::min(highest_, std::max(0.0f, new_front));
+      back[x] = std::min(highest_, std::max(0.0f, new_back));
     }
   }
 
-  void solve_colour(const Rows& front, const Rows& back, const float* picture, const float* alpha, int width) {
-    const auto solve_at = [&](int x, int before, int after) {
-      const float f = alpha[x] * picture[x] + ((up_[x] * front[0][x] + down_[x] * front[2][x]) +
-                                               (left_[x] * front[1][before] + right_[x] * front[1][after]));
-      const float b = (1 - alpha[x]) * picture[x] + ((up_[x] * back[0][x] + down_[x] * back[2][x]) +
-                                                     (left_[x] * back[1][before] + right_[x] * back[1][after]));
-      new_front_[x] = std::min(highest_, std::max(0.0f, same_front_[x] * f - cross_[x] * b));
-      new_back_[x] = std::min(highest_, std::max(0.0f, same_back_[x] * b - cross_[x] * f));
-    };
-    solve_at(0, 0, std::min(1, width - 1));
-    for (int x = 1; x < width - 1; ++x) solve_at(x, x - 1, x + 1);
-    if (width > 1) solve_at(width - 1, width - 2, width - 1);
-  }
-
   float flat_, steep_, highest_;
-  std::vector<float> up_, down_, left_, right_, same_front_, same_back_, cross_, new_front_, new_back_;
+  RowSystem system_;
+  std::vector<float> sums_;
 };
 
 // Even rows, then odd ones: within a row from what the row was before.
@@ -165,12 +190,8 @@ ForegroundAndBackground foreground_and_background(const Rgba& picture, const Pla
   check_arguments(picture, alpha, options);
   progress.phase("finding the colours", 1);
   Level whole{split(picture), alpha, {}, {}};
-  double top = 1;
-  for (const Plane& plane : whole.picture) {
-    double highest;
-    cv::minMaxLoc(plane, nullptr, &highest);
-    top = std::max(top, highest);
-  }
+  double highest;
+  cv::minMaxLoc(cv::Mat(picture).reshape(1), nullptr, &highest);
   Level level{{}, {}, mean_where(whole, true), mean_where(whole, false)};
   const int levels = static_cast<int>(std::ceil(std::log2(std::max({2, picture.cols, picture.rows}))));
   for (int i = 0; i <= levels; ++i) {
@@ -180,7 +201,7 @@ ForegroundAndBackground foreground_and_background(const Rgba& picture, const Pla
     level = {resized(whole.picture, size), resized(whole.alpha, size), resized(level.front, size), resized(level.back, size)};
     const bool small = size.width <= options.small_size && size.height <= options.small_size;
     const int iterations = small ? options.small_iterations : options.big_iterations;
-    for (int k = 0; k < iterations; ++k) improve(level, options, static_cast<float>(top));
+    for (int k = 0; k < iterations; ++k) improve(level, options, static_cast<float>(std::max(1.0, highest)));
     progress.at(std::pow(4, i - levels));
   }
   return {merged(level.front), merged(level.back)};

@@ -40,7 +40,8 @@ std::vector<Peak> peaks_of(const cv::Mat_<float>& histogram, const cv::Point& ze
 
 }  // namespace
 
-std::vector<cv::Vec2s> frequent_shifts(const InpaintLevel& level, const FrequentShiftsParameters& parameters) {
+std::vector<cv::Vec2s> frequent_shifts(const InpaintLevel& level, const FrequentShiftsParameters& parameters,
+                                       const std::function<void(double)>& at) {
   const cv::Size size = level.hole.size();
   Mask wanted = Mask::zeros(size);
   const cv::Rect part = around_hole(level.hole);
@@ -48,7 +49,7 @@ std::vector<cv::Vec2s> frequent_shifts(const InpaintLevel& level, const Frequent
   MatchField field = MatchField::of(wanted);
   const double tau = std::max(size.width, size.height) / static_cast<double>(not_near);
   patch_match(level.bytes, level.bytes, level.centres, field,
-              {.patch = parameters.patch, .rounds = search_rounds, .radius = level.radius, .nearest = tau, .seed = parameters.seed});
+              {.patch = parameters.patch, .rounds = search_rounds, .radius = level.radius, .nearest = tau, .seed = parameters.seed}, at);
   cv::Mat_<float> histogram = cv::Mat_<float>::zeros(2 * size.height + 1, 2 * size.width + 1);
   for (int y = 0; y < field.area.height; ++y)
     for (int x = 0; x < field.area.width; ++x)

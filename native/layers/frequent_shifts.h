@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "layers/inpaint_level.h"
@@ -18,6 +19,8 @@ struct FrequentShiftsParameters {
 /// to it; peaks of the histogram of how far they lie apart are the answer.
 ///
 /// He and Sun 2012, "Statistics of patch offsets for image completion", 3.1.
-std::vector<cv::Vec2s> frequent_shifts(const InpaintLevel& level, const FrequentShiftsParameters& parameters);
+/// `at`: see patch_match().
+std::vector<cv::Vec2s> frequent_shifts(const InpaintLevel& level, const FrequentShiftsParameters& parameters,
+                                       const std::function<void(double)>& at = {});
 
 }  // namespace stillwater

@@ -7,6 +7,11 @@
 
 namespace stillwater {
 
+struct ExpansionParameters {
+  int sweeps = 2;  ///< how often each shift is tried
+  int reach = 0;   ///< how far a piece may grow at once, pixels; 0 = over the whole hole, wherever it was before
+};
+
 /// The shift map with the least visible seams (SeamCost) that can be made of some shifts, found by expanding one after
 /// the other as far as that lowers the sum: minimum cuts, so that large pieces move at once.
 ///
@@ -14,11 +19,8 @@ namespace stillwater {
 /// 2009, 4, and He and Sun 2012, "Statistics of patch offsets for image completion", 3.2. Where a cut can't say what two neighbours
 /// cost (the cost is no metric) it is told less, and undone if the sum did not fall.
 ///
-/// `shifts`: of the level's size, a valid one everywhere in the hole; improved. `candidates`: tried in this order, `sweeps` times.
-void expand_shifts(const SeamCost& cost, const Mask& hole, const std::vector<cv::Vec2s>& candidates, int sweeps, ShiftMap& shifts,
-                   const std::function<void(double)>& at = {});
-
-/// Sum of SeamCost over all neighbours of which one at least lies in the hole.
-std::int64_t seam_energy(const SeamCost& cost, const Mask& hole, const ShiftMap& shifts);
+/// `shifts`: of the level's size, a valid one everywhere in the hole; improved. `candidates`: tried in this order.
+void expand_shifts(const SeamCost& cost, const Mask& hole, const std::vector<cv::Vec2s>& candidates,
+                   const ExpansionParameters& parameters, ShiftMap& shifts, const std::function<void(double)>& at = {});
 
 }  // namespace stillwater

@@ -1,5 +1,6 @@
 #include "layers/grid_operator.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 
 #include "core/parallel.h"
@@ -9,21 +10,28 @@ namespace {
 
 constexpr int stripe = 16;
 
-// rest -= the node's row of the operator * solution.
+// A node's numbers, and one block of the operator.
 template <int B>
-void subtract_row(const double* blocks, const std::array<int, 5>& around, const double* solution, double* rest) {
+using Numbers = Eigen::Matrix<double, B, 1>;
+template <int B>
+using Block = Eigen::Matrix<double, B, B>;
+
+// right minus the node's row of the operator * solution.
+template <int B, class Coefficient>
+Numbers<B> rest_at(const Coefficient* blocks, const std::array<int, 5>& around, const double* right, const double* solution) {
+  Numbers<B> rest = Eigen::Map<const Numbers<B>>(right);
   for (const int dy : {0, 1, 3, 4, 2}) {
     const double* near = solution + static_cast<size_t>(around[dy]) * B;
-    const double* block = blocks + dy * 5 * B * B;
+    const Coefficient* block = blocks + dy * 5 * B * B;
     if constexpr (B == 1) {
       const double outer = block[0] * near[0] + block[1] * near[1], inner = block[3] * near[3] + block[4] * near[4];
       rest[0] -= outer + block[2] * near[2] + inner;
     } else {
-      for (int dx = 0; dx < 5; ++dx, block += B * B, near += B)
-        for (int j = 0; j < B; ++j)
-          for (int i = 0; i < B; ++i) rest[i] -= block[j * B + i] * near[j];
+      for (int dx = 0; dx < 5; ++dx)
+        rest.noalias() -= Eigen::Map<const Block<B>>(block + dx * B * B) * Eigen::Map<const Numbers<B>>(near + dx * B);
     }
   }
+  return rest;
 }
 
 }  // namespace
@@ -46,12 +54,10 @@ void GridOperator<B>::relax(const std::vector<double>& right, std::vector<double
     for (int i = 0; i < count; ++i) {
       const size_t node = static_cast<size_t>(backwards ? first + count - 1 - i : first + i);
       const size_t entry = static_cast<size_t>(grid->entry(static_cast<int>(node))) * B;
-      double rest[B];
-      for (int b = 0; b < B; ++b) rest[b] = right[entry + b];
-      subtract_row<B>(coefficients + node * 25 * B * B, grid->around[node], solution.data(), rest);
-      const double* inverse = inverses + node * B * B;
-      for (int j = 0; j < B; ++j)
-        for (int b = 0; b < B; ++b) solution[entry + b] += inverse[j * B + b] * rest[j];
+      const Numbers<B> rest = rest_at<B>(coefficients + node * 25 * B * B, grid->around[node], &right[entry], solution.data());
+      const Eigen::Map<const Block<B>> inverse(inverses + node * B * B);
+      Eigen::Map<Numbers<B>> own(&solution[entry]);
+      own.noalias() += inverse * rest;
     }
   });
 }
@@ -62,10 +68,9 @@ void GridOperator<B>::find_residual(const std::vector<double>& right, const std:
   parallel_rows(grid->height, stripe, [&](int top, int bottom) {
     for (int node = grid->row[top]; node < grid->row[bottom]; ++node) {
       const size_t entry = static_cast<size_t>(grid->entry(node)) * B;
-      double rest[B];
-      for (int b = 0; b < B; ++b) rest[b] = right[entry + b];
-      subtract_row<B>(coefficients + static_cast<size_t>(node) * 25 * B * B, grid->around[node], solution.data(), rest);
-      for (int b = 0; b < B; ++b) residual[entry + b] = rest[b];
+      Eigen::Map<Numbers<B>> own(&residual[entry]);
+      own = rest_at<B>(coefficients + static_cast<size_t>(node) * 25 * B * B, grid->around[node], &right[entry],
+                       solution.data());
     }
   });
 }

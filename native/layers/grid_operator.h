@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "layers/sparse_grid.h"
@@ -11,9 +12,12 @@ namespace stillwater {
 /// what a multigrid needs of one of its levels. Vectors hold B numbers an entry of the grid.
 template <int B>
 struct GridOperator {
+  /// The many numbers of the finest level are half as long: what takes time is to read them.
+  using Coefficient = std::conditional_t<B == 1, float, double>;
+
   const SparseGrid* grid = nullptr;
-  const double* coefficients = nullptr;  ///< 25 blocks of B x B a node, those of no nodes are 0
-  const double* inverses = nullptr;      ///< of each node's own block, B x B
+  const Coefficient* coefficients = nullptr;  ///< 25 blocks of B x B a node, those of no nodes are 0
+  const double* inverses = nullptr;           ///< of each node's own block, B x B
 
   /// One sweep of Gauss-Seidel, in place: stripes of rows, first the even, then the odd ones, or all of it backwards.
   void relax(const std::vector<double>& right, std::vector<double>& solution, bool backwards) const;

@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 #include "core/progress.h"
+#include "layers/blend_seams.h"
 
 namespace stillwater {
 
@@ -14,7 +15,8 @@ struct InpaintParameters {
   std::uint64_t seed = 0;
   int grow = 2;                   ///< pixels; patches come from no nearer to the hole's edge than this
   std::optional<Plane> source;    ///< 0..1, patches come from where it is at least one half; none = from the whole picture
-  bool blend = true;              ///< seams are blended; without, every pixel of the hole is a copy of one of the source
+  /// How seams are blended; without, every pixel of the hole is a copy of one of the source.
+  std::optional<BlendParameters> blend = BlendParameters();
 };
 
 /// Fills a hole with what the rest of the picture is made of.

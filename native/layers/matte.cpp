@@ -25,6 +25,7 @@ void check_options(const MatteOptions& options) {
   check::in_range("colour", options.colour, 0, 1e6);
   check::in_range("haze", options.haze, 0, 0.49);
   check::in_range("at_once", options.at_once, 1, 1e9);
+  check::in_range("at_once_scribbled", options.at_once_scribbled, 1, 1e9);
   check::power_of_two("finest", options.finest, 1, 8);
   check::in_range("tolerance", options.tolerance, 1e-12, 1);
 }
@@ -46,7 +47,9 @@ Plane closed_form(const Rgba& picture, const Trimap& trimap, const MatteOptions&
     take_off_haze(alpha, static_cast<float>(options.haze));
     return alpha;
   };
-  return coarse_to_fine(picture, trimap, {.at_once = options.at_once, .finest = options.finest}, solve);
+  const CoarseToFineOptions steps{
+      .at_once = options.at_once, .at_once_scribbled = options.at_once_scribbled, .finest = options.finest};
+  return coarse_to_fine(picture, trimap, steps, solve);
 }
 
 Plane bayesian(const Rgba& picture, const Trimap& trimap, Progress& progress) {

@@ -73,15 +73,20 @@ Eigen::MatrixXd dense(const SparseGrid& grid, const std::vector<double>& coeffic
 struct MattingMultigrid::Levels {
   const MattingSystem& system;
   Basis basis;
+  std::vector<float> coefficients;
   std::vector<double> inverses, residual;
   GridOperator<1> fine;
   std::deque<CoarseLevel> coarse;
-  Eigen::LDLT<Eigen::MatrixXd> direct;
+  Eigen::LLT<Eigen::MatrixXd> direct;
 
   explicit Levels(const MattingSystem& s, const MultigridOptions& options)
-      : system(s), basis(centred(s)), inverses(static_cast<size_t>(s.grid.nodes())), residual(s.right.size(), 0.0) {
+      : system(s), basis(centred(s)), coefficients(s.coefficients.size()), inverses(static_cast<size_t>(s.grid.nodes())), residual(s.right.size(), 0.0) {
     for (size_t node = 0; node < inverses.size(); ++node) inverses[node] = 1 / s.coefficients[node * 25 + 12];
-    fine = {&s.grid, s.coefficients.data(), inverses.data()};
+    parallel_rows(s.grid.nodes(), 4096, [&](int first, int last) {
+      for (size_t i = static_cast<size_t>(first) * 25; i < static_cast<size_t>(last) * 25; ++i)
+        coefficients[i] = static_cast<float>(s.coefficients[i]);
+    });
+    fine = {&s.grid, coefficients.data(), inverses.data()};
     coarse.push_back(coarser<1>(s.grid, options.spacing, &basis, s.coefficients.data()));
     while (coarse.back().way.grid.nodes() > options.coarsest)
       coarse.push_back(coarser<4>(coarse.back().way.grid, 2, nullptr, coarse.back().coefficients.data()));

@@ -8,8 +8,8 @@
 namespace stillwater {
 
 struct MultigridOptions {
-  int spacing = 6;    ///< pixels between the nodes of the first coarse grid, 2 or more; each further one doubles it
-  int coarsest = 96;  ///< nodes that are solved directly
+  int spacing = 8;    ///< pixels between the nodes of the first coarse grid, 2 or more; each further one doubles it
+  int coarsest = 40;  ///< nodes that are solved directly
 };
 
 /// A preconditioner for the matting Laplacian: one V-cycle of a multigrid made for it. What the Laplacian hardly sees

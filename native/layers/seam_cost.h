@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <cstdlib>
 
 #include "layers/inpaint_level.h"
 
@@ -23,6 +24,12 @@ class SeamCost {
   /// p in the hole, q beside it, in the image; both their pixels may be copied from where their own shifts lead.
   int operator()(const cv::Point& p, const cv::Point& q, const cv::Vec2s& shift_p, const cv::Vec2s& shift_q) const;
 
+  /// What a pixel costs for its shift alone: a little for coming from far, more for coming from above or below, for
+  /// pictures lie in level bands.
+  int far(const cv::Vec2s& shift) const {
+    return (far_beside * std::abs(shift[0]) + far_above * std::abs(shift[1])) / std::max(inside_.width, inside_.height);
+  }
+
   /// Does the shift lead to a pixel that may be copied, within the radius?
   bool may_copy(const cv::Point& p, const cv::Vec2s& shift) const {
     const cv::Point from(p.x + shift[0], p.y + shift[1]);
@@ -32,6 +39,8 @@ class SeamCost {
   bool contains(const cv::Point& p) const { return inside_.contains(p); }
 
  private:
+  static constexpr int far_beside = 30, far_above = 120;
+
   using Look = cv::Vec<short, 6>;  // four bytes, gradient of lightness
 
   int difference(const cv::Point& a, const cv::Point& b) const;

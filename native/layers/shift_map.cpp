@@ -4,6 +4,8 @@
 #include <array>
 #include <atomic>
 #include <opencv2/imgproc.hpp>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -34,7 +36,7 @@ class Seams {
 
  private:
   std::int64_t energy(const cv::Point& p, const cv::Vec2s& shift) const {
-    std::int64_t sum = 0;
+    std::int64_t sum = cost_.far(shift);
     for (const cv::Point& step : neighbours) {
       const cv::Point q = p + step;
       if (cost_.contains(q)) sum += cost_(p, q, shift, shifts_(q));
@@ -67,7 +69,8 @@ class Seams {
 
 }  // namespace
 
-ShiftMap agreed_shifts(const MatchField& field, const Plane& weight, int patch, const Mask& hole) {
+ShiftMap agreed_shifts(const MatchField& field, const Plane& weight, int patch, const Mask& hole,
+                       const std::function<void(double)>& at) {
   ShiftMap shifts = ShiftMap::zeros(hole.size());
   const int half = patch / 2, left = field.area.x, top = field.area.y;
   const cv::Rect box = cv::boundingRect(hole);
@@ -89,8 +92,21 @@ ShiftMap agreed_shifts(const MatchField& field, const Plane& weight, int patch, 
         if (votes.empty()) continue;
         shifts(y, x) = std::max_element(votes.begin(), votes.end(), [](const Votes& a, const Votes& b) { return a.weight < b.weight; })->shift;
       }
-  });
+  }, at);
   return shifts;
+}
+
+std::vector<cv::Vec2s> most_used(const ShiftMap& shifts, const Mask& hole, size_t most) {
+  std::map<std::pair<int, int>, int> counts;
+  for (int y = 0; y < hole.rows; ++y)
+    for (int x = 0; x < hole.cols; ++x)
+      if (hole(y, x)) ++counts[{shifts(y, x)[0], shifts(y, x)[1]}];
+  std::vector<std::pair<std::pair<int, int>, int>> ordered(counts.begin(), counts.end());
+  std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  ordered.resize(std::min(most, ordered.size()));
+  std::vector<cv::Vec2s> used;
+  for (const auto& [shift, count] : ordered) used.emplace_back(static_cast<short>(shift.first), static_cast<short>(shift.second));
+  return used;
 }
 
 void settle_seams(const SeamCost& cost, const Mask& hole, int rounds, ShiftMap& shifts, const std::function<void(double)>& at) {

@@ -9,7 +9,11 @@
 namespace stillwater {
 
 /// For each pixel of the hole the shift that most of the patches over it agree on, by their `weight`.
-ShiftMap agreed_shifts(const MatchField& field, const Plane& weight, int patch, const Mask& hole);
+ShiftMap agreed_shifts(const MatchField& field, const Plane& weight, int patch, const Mask& hole,
+                       const std::function<void(double)>& at = {});
+
+/// The shifts that most pixels of the hole have, most first.
+std::vector<cv::Vec2s> most_used(const ShiftMap& shifts, const Mask& hole, size_t most);
 
 /// Moves the borders between pieces of one shift to where they are seen least: a pixel takes a neighbour's shift where
 /// that lowers the sum of SeamCost over all neighbours. Pixels of the two colours of a chessboard take turns, so that

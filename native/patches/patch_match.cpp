@@ -1,6 +1,8 @@
 #include "patches/patch_match.h"
 
 #include <algorithm>
+#include <functional>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "core/parallel.h"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr int tile_side = 32;
 constexpr int tiles_between_looks = 64;
+constexpr int tries_by_chance = 16;
 
 // A quick run of numbers from one place's random bits.
 class Dice {
@@ -56,6 +59,7 @@ class Search {
         });
         if (at) at((pass + static_cast<double>(first + some) / count) / passes);
       }
+      if (pass == 0) find_lost(at);
     }
   }
 
@@ -69,6 +73,41 @@ class Search {
         field_.distance(y, x) = MatchField::unmatched;
         attempt(y, x, given);
       }
+  }
+
+  // Patches that begin nowhere take a place by chance, or the nearest where few are near enough.
+  void find_lost(const std::function<void(double)>& at) {
+    std::vector<cv::Point> lost, places;
+    for (int y = 0; y < field_.area.height; ++y)
+      for (int x = 0; x < field_.area.width; ++x)
+        if (field_.wanted(y, x) && field_.distance(y, x) == MatchField::unmatched) lost.emplace_back(x, y);
+    if (lost.empty()) return;
+    cv::findNonZero(centres_, places);
+    if (places.empty()) return;
+    parallel_rows(static_cast<int>(lost.size()), 16, [&](int first, int last) {
+      for (int i = first; i < last; ++i) find(lost[i], places);
+    }, at ? [&](double) { at(1.0 / (parameters_.rounds + 1)); } : std::function<void(double)>());
+  }
+
+  void find(const cv::Point& patch, const std::vector<cv::Point>& places) {
+    const cv::Point target = patch + field_.area.tl();
+    const auto offset_of = [&](const cv::Point& place) {
+      return cv::Vec2s(static_cast<short>(place.x - target.x), static_cast<short>(place.y - target.y));
+    };
+    const int& distance = field_.distance(patch);
+    for (int i = 0; i < tries_by_chance && distance == MatchField::unmatched; ++i) {
+      const double share = random_uniform(parameters_.seed, {target.y, target.x, -1 - i});
+      attempt(patch.y, patch.x, offset_of(places[static_cast<size_t>(share * static_cast<double>(places.size()))]));
+    }
+    if (distance != MatchField::unmatched) return;
+    std::vector<cv::Point> reachable;
+    for (const cv::Point& place : places)
+      if (in_reach(offset_of(place))) reachable.push_back(place);
+    if (reachable.empty()) return;
+    const auto nearest = std::min_element(reachable.begin(), reachable.end(), [&](const cv::Point& a, const cv::Point& b) {
+      return (a - target).ddot(a - target) < (b - target).ddot(b - target);
+    });
+    attempt(patch.y, patch.x, offset_of(*nearest));
   }
 
   void improve(const cv::Rect& tile, int pass) {
@@ -97,21 +136,25 @@ class Search {
   }
 
   void look_around(int y, int x, int pass) {
+    if (field_.distance(y, x) == MatchField::unmatched) return;
     Dice dice(random_bits(parameters_.seed, {y + field_.area.y, x + field_.area.x, pass}));
     for (int reach = longest_reach_; reach >= 1; reach /= 2) {
-      const bool lost = field_.distance(y, x) == MatchField::unmatched;
-      const cv::Vec2s centre = lost ? cv::Vec2s(0, 0) : field_.offset(y, x);
+      const cv::Vec2s centre = field_.offset(y, x);
       const int dx = dice.within(reach), dy = dice.within(reach);
       attempt(y, x, {static_cast<short>(centre[0] + dx), static_cast<short>(centre[1] + dy)});
     }
+  }
+
+  bool in_reach(const cv::Vec2s& offset) const {
+    const double apart = static_cast<double>(offset[0]) * offset[0] + static_cast<double>(offset[1]) * offset[1];
+    return apart <= squared_radius_ && apart >= squared_nearest_;
   }
 
   void attempt(int y, int x, const cv::Vec2s& offset) {
     const cv::Point target = cv::Point(x, y) + field_.area.tl(), source = target + cv::Point(offset[0], offset[1]);
     if (source.x < 0 || source.y < 0 || source.x >= centres_.cols || source.y >= centres_.rows || !centres_(source))
       return;
-    const double apart = static_cast<double>(offset[0]) * offset[0] + static_cast<double>(offset[1]) * offset[1];
-    if (apart > squared_radius_ || apart < squared_nearest_) return;
+    if (!in_reach(offset)) return;
     int& best = field_.distance(y, x);
     if (best != MatchField::unmatched && offset == field_.offset(y, x)) return;
     const int distance = distance_(target, source, best);

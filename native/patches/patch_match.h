@@ -23,8 +23,8 @@ struct PatchSearch {
 /// in the order tried wins.
 ///
 /// `target`, `source`: images; all wanted patches lie inside the target. `source_centres` (of the source's size): where
-/// matches may be. A patch whose offset leads elsewhere, or nowhere allowed, is unmatched and takes what it finds; it
-/// may stay unmatched where few places are allowed. No distance is above the one that the field's offsets had.
+/// matches may be. A patch whose offset leads elsewhere begins at a place by chance; it stays unmatched only where none
+/// is near enough. No distance is above the one that the field's offsets had.
 ///
 /// `at`: is called with 0..1 by the calling thread, again and again; what it throws ends the search.
 void patch_match(const PatchImage& target, const PatchImage& source, const Mask& source_centres, MatchField& field,

@@ -6,7 +6,8 @@
 
 namespace stillwater {
 
-void vote(const MatchField& field, int patch, const Plane& weight, const Rgba& source, const Mask& region, Rgba& target) {
+void vote(const MatchField& field, int patch, const Plane& weight, const Rgba& source, const Mask& region, Rgba& target,
+          const std::function<void(double)>& at) {
   const int half = patch / 2, left = field.area.x, top = field.area.y;
   const cv::Rect reached = cv::Rect(left - half, top - half, field.area.width + 2 * half, field.area.height + 2 * half) &
                            cv::Rect(0, 0, target.cols, target.rows);
@@ -26,7 +27,7 @@ void vote(const MatchField& field, int patch, const Plane& weight, const Rgba& s
           }
         if (all > 0) target(y, x) = sum * (1 / all);
       }
-  });
+  }, at);
 }
 
 }  // namespace stillwater

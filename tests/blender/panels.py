@@ -12,6 +12,7 @@ class Recorder:
 
     def __init__(self):
         self.texts, self.properties, self.operators, self.lists, self.menus, self.made = [], [], [], [], [], []
+        self.icons = []  # of operators, each with its text
 
     def __getattr__(self, name):
         if name in ("row", "column", "box", "split", "grid_flow"):
@@ -46,6 +47,7 @@ class Recorder:
         properties = getattr(getattr(bpy.ops, room), verb).get_rna_type().properties
         assert icon in ICONS
         self.operators.append(name)
+        self.icons.append((text, icon))
         self.texts += [text] if text else []
         self.made.append(SimpleNamespace(**{kind.identifier: None for kind in properties}))
         return self.made[-1]

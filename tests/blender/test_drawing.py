@@ -67,6 +67,72 @@ def test_done_leads_back(scene, picture, layers):
     assert status() == "" and draw_mode.tick() is None
 
 
+def shelves() -> list[bool]:
+    """Which viewports show the shelf of brushes."""
+    areas = [area for window in bpy.context.window_manager.windows for area in window.screen.areas]
+    return [area.spaces.active.show_region_asset_shelf for area in areas if area.type == "VIEW_3D"]
+
+
+def show_shelves(shown: bool) -> None:
+    for area in bpy.context.window.screen.areas:
+        if area.type == "VIEW_3D":
+            area.spaces.active.show_region_asset_shelf = shown
+
+
+def draw_sway_line() -> None:
+    """Into draw mode, where a redraw makes the shelf the first time, and shows it; a timer comes."""
+    bpy.ops.stillwater.draw_stroke("EXEC_DEFAULT", True, role="sway_line")
+    if bpy.context.scene.session_uid not in draw_mode._shelves:
+        show_shelves(all(shelves()))
+    draw_mode.tick()
+
+
+@pytest.mark.parametrize("before", [True, False])
+def test_brushes_do_not_lie_over_the_picture_meanwhile(scene, picture, layers, before):
+    draw_sway_line()
+    assert shelves() and not any(shelves())
+    bpy.ops.stillwater.stop_drawing()
+    assert all(shelves()), "as Blender shows it first"
+    show_shelves(before)
+    draw_sway_line()
+    assert not any(shelves())
+    show_shelves(True)
+    draw_mode.look_after()
+    draw_mode.tick()
+    assert all(shelves()), "whoever opens it has it"
+    bpy.ops.stillwater.stop_drawing()
+    assert set(shelves()) == {True}
+
+
+def test_who_has_no_brushes_gets_none(scene, picture, layers):
+    draw_sway_line()
+    bpy.ops.stillwater.stop_drawing()
+    show_shelves(False)
+    draw_sway_line()
+    bpy.ops.stillwater.stop_drawing()
+    assert not any(shelves())
+
+
+def test_brushes_come_back_after_undo_and_blender_s_own_ways(scene, picture, layers, tmp_path):
+    bpy.ops.ed.undo_push(message="Before")
+    draw_sway_line()
+    bpy.ops.ed.undo()
+    assert all(shelves())
+    bpy.ops.ed.redo()
+    draw_mode.tick()
+    assert not any(shelves())
+    bpy.ops.object.mode_set(mode="OBJECT")
+    draw_mode.tick()
+    assert all(shelves())
+    draw_sway_line()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "meanwhile.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "meanwhile.blend"), load_ui=True)
+    draw_mode.tick()
+    assert not any(shelves())
+    bpy.ops.stillwater.stop_drawing()
+    assert all(shelves())
+
+
 def test_the_status_bar_is_left_to_others(scene, picture, layers, monkeypatch):
     """It gets the hint, is cleared once, and not touched where nothing was drawn."""
     texts = []
@@ -283,6 +349,29 @@ def test_the_panel_in_edit_mode_changes_roles(picture, layers, selected):
     assert "stillwater.change_role" in shown()["operators"]
 
 
+def icons() -> dict[str, str]:
+    """What the buttons of the roles show."""
+    (panel,) = [cls for cls in registered("view_3d") if cls.bl_label == "Strokes"]
+    return {text: icon for text, icon in show(panel).icons if text}
+
+
+def test_a_role_that_was_drawn_or_typed_has_a_check_mark(scene, picture, layers):
+    assert icons() == {"Sway Line": "GREASEPENCIL", "Horizon": "GREASEPENCIL"}
+    picture.layers[1].motion.sway.armature_root = 5, 5
+    picture.view.use_horizon, picture.view.horizon_end = True, (9, 9)
+    assert icons() == {"Sway Line": "CHECKMARK", "Horizon": "CHECKMARK"}
+    picture.view.use_horizon = False
+    draw(gp_layers.ensure(picture, layers[2].id, WATERLINE), on_plane((10, 10), (20, 20)))
+    assert icons()["Horizon"] == "GREASEPENCIL"
+    picture.active_layer = 2
+    assert icons() == {"Waterline": "CHECKMARK", "Horizon": "GREASEPENCIL"}
+    bpy.ops.stillwater.delete_strokes(role="waterline")
+    assert icons()["Waterline"] == "GREASEPENCIL"
+    for _ in range(2):
+        picture.layers[2].motion.bob.waterline.add()
+    assert icons()["Waterline"] == "CHECKMARK"
+
+
 def test_numbers_that_strokes_stand_for_are_not_shown(scene, picture, layers):
     names = {"armature_root", "armature_tip", "horizon_start", "horizon_end", "use_horizon"}
     picture.view.use_horizon = True
@@ -291,7 +380,7 @@ def test_numbers_that_strokes_stand_for_are_not_shown(scene, picture, layers):
         draw(gp_layers.ensure(picture, identifier, role), on_plane((10, 10), (20, 20)))
     assert not names & set(shown()["properties"]) and {"frequency", "fov"} <= set(shown()["properties"])
     picture.active_layer = 2
-    assert "Waterline: 0 Points" in shown()["texts"]
+    assert "Waterline of 0 points" in shown()["texts"]
 
 
 @pytest.fixture

@@ -142,6 +142,43 @@ def test_a_scene_that_does_not_show_it_is_left_alone(scene, prefer, painted):
     assert not painted.exists()
 
 
+@pytest.mark.parametrize("kind", ["LINK_COPY", "FULL_COPY"])
+@pytest.mark.parametrize("first", ["BAKE", "NOTHING"])
+def test_a_copied_scene_baked_by_a_render_survives_undo(scene, prefer, painted, kind, first, tmp_path):
+    """The render gives the copy a tree of its own, which no step before the render holds."""
+    prefer(first)
+    still(scene, 5)
+    bpy.ops.ed.undo_push(message="Before")
+    bpy.ops.scene.new("EXEC_DEFAULT", True, type=kind)
+    name = bpy.context.scene.name
+    prefer("BAKE")
+    bpy.data.scenes[name].stillwater.pictures[0].wind.speed = 9
+    bpy.ops.ed.undo_push(message="Wind")
+    bpy.data.materials.new("Bark").use_fake_user = True
+    bpy.ops.ed.undo_push(message="Of something else: the scene is the same before and after")
+    shown = still(bpy.data.scenes[name], 6)
+    for there in (True, True, True, False):
+        bpy.ops.ed.undo()
+        assert (name in bpy.data.scenes) == there
+        whole(tmp_path)
+    for _ in range(4):
+        bpy.ops.ed.redo()
+        whole(tmp_path)
+    np.testing.assert_array_equal(still(bpy.data.scenes[name], 6), shown)
+
+
+def whole(folder):
+    """All that pictures and compositors point at is there, and can be written."""
+    for scene in bpy.data.scenes:
+        for picture in scene.stillwater.pictures:
+            for thing in (picture.tree, picture.plane, picture.camera, picture.image):
+                assert thing is None or thing.name in [item.name for item in (*bpy.data.node_groups, *bpy.data.objects, *bpy.data.images)]
+        tree = getattr(scene, "compositing_node_group", None) or getattr(scene, "node_tree", None)
+        for node in tree.nodes if tree else ():
+            assert getattr(node, "node_tree", None) is None or node.node_tree.name in bpy.data.node_groups
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "copy.blend"), copy=True)
+
+
 class Render(threading.Thread):
     """The thread in which a Blender with a window renders; the test is the main one, with its timers."""
 

@@ -2,8 +2,9 @@
 
 import addon_utils
 import bpy
+import numpy as np
 import pytest
-from pixels import PACKAGE, oiio, render, same, set_up, write_frame
+from pixels import HEIGHT, PACKAGE, WIDTH, oiio, render, same, set_up, write_frame
 
 
 def test_every_output_is_the_file_s(scene, baked, tmp_path):
@@ -14,6 +15,42 @@ def test_every_output_is_the_file_s(scene, baked, tmp_path):
 def test_frames_are_found_in_any_order(scene, baked, tmp_path):
     for frame in (8, 5, 7):
         same(render(scene, frame, tmp_path), baked[1][frame])
+
+
+def halved(frame: dict) -> dict:
+    """A frame at half its size: each pixel is four; and half as many pixels from frame to frame."""
+    quarters = {name: pixels.reshape(HEIGHT // 2, 2, WIDTH // 2, 2, -1) for name, pixels in frame.items()}
+    small = {name: pixels.mean((1, 3)) for name, pixels in quarters.items()}
+    return {**small, "Flow": small["Flow"] / 2, "Render": small["Image"]}
+
+
+def is_halved(shown: dict, frame: dict) -> None:
+    for name, wanted in halved(frame).items():
+        np.testing.assert_allclose(shown[name], wanted, rtol=1e-5, atol=1e-5, err_msg=name)
+
+
+def test_a_render_at_a_percentage_shows_the_whole_frame(scene, baked, tmp_path):
+    scene.render.resolution_percentage = 50
+    is_halved(render(scene, 6, tmp_path), baked[1][6])
+    scene.render.resolution_percentage = 100
+    same(render(scene, 7, tmp_path), baked[1][7])
+
+
+def test_each_scene_has_its_own_percentage(extension, scene, baked, tmp_path):
+    other = bpy.data.scenes.new("Other")
+    set_up(other)
+    extension.compositor.tree.wire(other, baked[0])
+    other.render.resolution_percentage = 50
+    for _ in range(2):
+        is_halved(render(other, 6, tmp_path), baked[1][6])
+        same(render(scene, 6, tmp_path), baked[1][6])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    addon_utils.disable(PACKAGE)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    try:
+        is_halved(render(bpy.data.scenes["Other"], 6, tmp_path), baked[1][6])
+    finally:
+        addon_utils.enable(PACKAGE)
 
 
 def test_before_the_first_frame_it_is_transparent_and_after_the_last_it_holds(scene, baked, tmp_path):

@@ -141,14 +141,14 @@ def test_files_dropped_together_are_opened_together(scene, tmp_path):
         paint(tmp_path / name)
     (tmp_path / "c.png").write_text("no picture")
     files = [{"name": name} for name in ("a.png", "b.png", "c.png")]
-    assert bpy.ops.stillwater.open_picture(directory=str(tmp_path), files=files) == {"FINISHED"}
+    assert bpy.ops.stillwater.drop_picture(directory=str(tmp_path), files=files) == {"FINISHED"}
     assert [picture.name for picture in scene.stillwater.pictures] == ["a", "b"]
     assert {image.name for image in bpy.data.images} <= {"a.png", "b.png", "Render Result", "Viewer Node"}
 
 
 def test_a_drop_onto_the_viewport_is_taken(scene):
     handler = bpy.types.STILLWATER_FH_picture
-    assert handler.bl_import_operator == "stillwater.open_picture" and ".png" in handler.bl_file_extensions
+    assert handler.bl_import_operator == "stillwater.drop_picture" and ".png" in handler.bl_file_extensions
     for kind, taken in (("VIEW_3D", True), ("NODE_EDITOR", False)):
         assert handler.poll_drop(SimpleNamespace(area=SimpleNamespace(type=kind))) == taken
 

@@ -124,6 +124,32 @@ def test_an_outline_closes_at_the_border_and_at_single_pixels(room):
     assert (counts == 2).all()
 
 
+def test_an_outline_has_no_specks(room):
+    """Leaves that fly beside the crown and gaps between its leaves, of a few pixels."""
+    y, x = np.mgrid[:300, :400] + 0.5
+    crown = (np.hypot(x - 200, y - 150) < 100).astype(np.float32)
+    alone = room.outline.outline(crown)
+    specked = crown.copy()
+    for row, column in ((20, 20), (21, 20), (150, 200), (150, 201), (250, 380)):
+        specked[row, column] = 1 - specked[row, column]
+    np.testing.assert_array_equal(np.sort(room.outline.outline(specked), axis=0), np.sort(alone, axis=0))
+    specked[140:160, 190:210] = 0  # a gap as large as a branch
+    assert len(room.outline.outline(specked)) > len(alone)
+
+
+def test_a_matte_of_specks_alone_keeps_its_outline(room):
+    stars = np.zeros((300, 400))
+    stars[::50, ::50] = 1
+    assert len(room.outline.outline(stars)) == 4 * stars.sum()
+
+
+def test_an_outline_is_left_out_whole_or_not_at_all(room):
+    """In a maze of outlines that touch at corners, too."""
+    lines = room.outline.outline(np.random.default_rng(3).random((200, 300)), 0.45)
+    _, counts = np.unique(lines.reshape(-1, 2), axis=0, return_counts=True)
+    assert (counts == 2).all() and len(lines) > 10_000
+
+
 TREE = {"name": "tree", "motion": {"type": "sway", "armature": [[100, 300], [100, 100]]}}
 
 
@@ -132,6 +158,11 @@ def test_a_sway_line_bends_with_its_layer(room):
     assert (still.ends[0], still.ends[-1]) == ([100, 300], [100, 100])
     assert bent.ends[0] == (110, 300) and bent.ends[-1] == (110, 100) and len(bent.ends) == 48
     assert len(cross.ends) == 4 and {len(line.ends) == len(line.alphas) for line in (still, bent, cross)} == {True}
+
+
+def test_a_sway_line_that_was_not_drawn_yet_is_not_shown(room):
+    undrawn = {**TREE, "motion": {"type": "sway", "armature": [[0, 0], [0, 0]]}}
+    assert not list(room.shapes.sway_lines(subject(room, recipe(undrawn), "tree", Bending())))
 
 
 def test_what_is_hidden_or_elsewhere_is_not_drawn_and_the_active_one_is_stronger(room):

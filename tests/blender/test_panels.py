@@ -94,6 +94,14 @@ def test_a_matte_shows_what_its_form_needs(picture, panel, form, names):
     assert shown == names
 
 
+@pytest.mark.parametrize("path, name", [("/a/b/tree.png", "tree.png"), ("C:\\a\\tree.png", "tree.png"),
+                                        ("//tree.png", "tree.png"), ("tree.png", ""), ("", "")])  # fmt: skip
+def test_the_name_of_a_file_is_to_be_read(extension, picture, panel, path, name):
+    layer = picture.layers[0]
+    layer.matte.form, layer.matte.file = "file", path
+    assert extension.ui.sidebar.file_of(path) == name and (not name or name in panel()["texts"])
+
+
 def test_the_bake_is_shown(extension, scene, picture, panel):
     assert "stillwater.bake" in panel()["operators"]
     state = extension.compositor.tree.ensure(scene, picture).stillwater
@@ -190,6 +198,11 @@ def test_the_picture_is_shown(opened, panel):
     assert f"lake.png, {WIDTH} x {HEIGHT} px" in shown["texts"]
     assert {f"stillwater.{verb}_picture" for verb in ("replace", "reload", "remove")} <= set(shown["operators"])
     assert "stillwater.show_picture" not in shown["operators"] and "colour_space" in shown["properties"]
+
+
+def test_each_number_of_a_picture_has_one_place(opened, panel):
+    shown = panel()["properties"]
+    assert [shown.count(name) for name in ("colour_space", "seed", "loop", "compression")] == [1, 2, 1, 1]  # the wind's seed
 
 
 def test_a_missing_picture_is_shown_with_what_to_do(opened, panel):

@@ -187,6 +187,41 @@ def test_no_empty_folder_is_left(baked, tmp_path, path):
     assert path.endswith("lake.png")
 
 
+@pytest.mark.parametrize("baked_first", [True, False])
+def test_the_cache_of_all_pictures_is_cleared_of_it(extension, scene, path, tmp_path, baked_first):
+    chosen = extension.preferences.of(bpy.context)
+    chosen.cache_folder = str(tmp_path / "cache")
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+        paint(tmp_path / "pond.png", (30, 20))
+        for name in ("lake.png", "pond.png"):
+            bpy.ops.stillwater.open_picture(filepath=str(tmp_path / name))
+            scene.frame_start = scene.frame_end = 1
+            bpy.ops.stillwater.bake()
+        kept = lambda: len(list((tmp_path / "cache").glob("*/meta.json")))  # noqa: E731
+        assert kept() == 2
+        if not baked_first:
+            bpy.ops.stillwater.free_bake()
+        bpy.ops.stillwater.remove_picture(delete_files=True)
+        assert kept() == 1 and not (tmp_path / "stillwater" / "pond").exists()
+        bpy.ops.stillwater.remove_picture()
+        assert kept() == 1, "its files stay: undo brings it back with all of them"
+    finally:
+        chosen.cache_folder = ""
+
+
+def test_a_cache_that_can_t_be_cleared_is_told(extension, scene, path, monkeypatch):
+    def fail(*_):
+        raise OSError(13, "Permission denied", "/cache")
+
+    told = []
+    monkeypatch.setattr(extension.bake.keeping, "forget_prepared", fail)
+    bpy.ops.stillwater.open_picture(filepath=path)
+    monkeypatch.setattr(extension.pictures.remove, "rpt_", lambda text: told.append(text) or text)
+    assert bpy.ops.stillwater.remove_picture(delete_files=True) == {"FINISHED"}
+    assert told == ["{name} is removed, its files are not: {why}"] and len(scene.stillwater.pictures) == 0
+
+
 def test_a_worker_that_bakes_it_is_ended(extension, scene, baked, monkeypatch):
     import sys
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import bpy
 import pytest
+import recipes
 from panels import draw, registered
 from pictures import paint
 from pixels import PACKAGE
@@ -107,6 +108,12 @@ def test_reports_poll_messages_and_units_do_too(extension, scene, translated, tm
     bpy.ops.stillwater.draw_stroke(role="horizon")
     hint = extension.strokes.draw_mode.hint(scene)
     assert hint.startswith("~~Horizon of lake: ~Draw along the horizon")
+
+
+def test_a_recipe_that_can_t_be_opened_is_told_in_it_too(scene, translated, tmp_path):
+    path = recipes.write(tmp_path / "lake", {**recipes.whole(), "seed": 2**40})
+    with pytest.raises(RuntimeError, match="~seed: 1099511627776 is above what Blender can hold"):
+        bpy.ops.stillwater.load_recipe(filepath=str(path))
 
 
 def test_what_knows_nothing_of_blender_is_told_how(extension, translated):

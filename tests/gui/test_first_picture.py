@@ -1,62 +1,29 @@
 """A new user's first minutes: from an empty Blender to a tree that sways in the compositor, by mouse and keys alone."""
 
 import json
+import tempfile
 from pathlib import Path
 
 import bpy
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
-from mathutils import Vector
+from seen import FIELD, TABS, changes, is_live, on_screen, open_overlays, open_sidebar, part, picture, right_end, state
+from seen import switch_off_and_on
 from window import Box
 
 SAMPLE = Path(__file__).resolve().parents[2] / "blend_samples" / "tree"
 SWAY_LINE = [(808, 600), (809, 75)]  # root and tip in the sample's picture, px
+FILE = Path(tempfile.mkdtemp()) / "meadow.blend"
+STEPS = 32  # that Blender can undo
 CROWN, MEADOW = (560, 200, 740, 330), (150, 690, 400, 780)  # left, top, right, bottom: swaying, standing still
-TABS = 30  # px, beside the panels of a sidebar
-FIELD = 80  # px from the middle of a label to its field
 
 
-def picture():
-    return bpy.context.scene.stillwater.active()
-
-
-def state():
-    """How the bake is doing."""
-    return picture().tree.stillwater
-
-
-def on_screen(window, x: float, y: float) -> tuple[int, int]:
-    """Where a place of the picture (px from its upper left corner) is seen in the viewport."""
-    (width, height), plane = picture().picture_size, picture().plane
-    side = plane.empty_display_size / max(width, height)
-    place = plane.matrix_world @ Vector(((x - width / 2) * side, (height / 2 - y) * side, 0))
-    area, box = window.area("VIEW_3D"), window.box("VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    seen = location_3d_to_region_2d(region, area.spaces.active.region_3d, place)
-    return round(box.x + seen.x), round(box.y + seen.y)
-
-
-def part(window, corners) -> Box:
-    """Where a part of the picture (left, top, right, bottom) is on the screen."""
-    left, top = on_screen(window, *corners[:2])
-    right, bottom = on_screen(window, *corners[2:])
-    return Box(left, bottom, right - left, top - bottom)
-
-
-def bent_line(window) -> np.ndarray:
-    """The pixels around the sway line."""
-    return window.pixels(part(window, (700, 60, 920, 620)))
-
-
-def right_end(sidebar) -> int:
-    """Where a row of the sidebar has its last icon."""
-    return sidebar.x + sidebar.width - 42
+def bent_line(window) -> Box:
+    """Where the sway line is."""
+    return part(window, (700, 60, 920, 620))
 
 
 def test_the_sidebar_has_a_stillwater_tab(window):
-    yield from window.key("N", at=window.box("VIEW_3D").middle)
-    yield from window.click("Stillwater", inside=window.box("VIEW_3D", "UI"), turned=True)
-    yield from window.see("Open Picture")
+    yield from open_sidebar(window)
     yield from window.screenshot("01-sidebar")
 
 
@@ -67,7 +34,7 @@ def test_a_picture_is_opened_and_seen_as_it_is(window):
     yield from window.until(lambda: picture() is not None, 20, "no picture")
     yield from window.screenshot("02-opened")
     pixels = np.array(picture().image.pixels).reshape(800, 1280, 4)[::-1, :, :3] * 255
-    for x, y in ((100, 100), (640, 60), (500, 430), (300, 700)):
+    for x, y in ((200, 40), (640, 60), (500, 430), (300, 700)):
         column, row = on_screen(window, x + 0.5, y + 0.5)
         seen = window.pixels(Box(column - 2, row - 2, 5, 5)).mean((0, 1))
         assert np.abs(seen - pixels[y - 3 : y + 4, x - 3 : x + 4].mean((0, 1))).max() < 8, (x, y, seen, pixels[y, x])
@@ -109,8 +76,7 @@ def test_its_sway_line_is_drawn_with_the_mouse(window):
 
 
 def test_the_play_button_shows_it_in_motion_without_a_bake(window):
-    live = lambda: picture().plane.data != picture().image  # noqa: E731
-    yield from window.until(live, 60, "the layers are not cut out")
+    yield from window.until(is_live, 60, "the layers are not cut out")
     yield from window.settle()
     crown, meadow = part(window, CROWN), part(window, MEADOW)
     tree, still, moved = window.pixels(crown), window.pixels(meadow), []
@@ -118,7 +84,7 @@ def test_the_play_button_shows_it_in_motion_without_a_bake(window):
     assert window.plays
     for _ in range(3):
         yield 0.3
-        moved.append(np.abs(window.pixels(crown) - tree.astype(float)).mean())
+        moved.append(changes(window, crown, tree))
         assert np.array_equal(window.pixels(meadow), still)
     yield from window.screenshot("08-playing")
     yield from window.key("SPACE")
@@ -130,31 +96,22 @@ def test_the_play_button_shows_it_in_motion_without_a_bake(window):
 
 def test_a_number_that_changes_is_seen_at_once(window):
     sidebar = window.box("VIEW_3D", "UI")
-    before = window.pixels(part(window, CROWN))
+    crown = part(window, CROWN)
+    before = window.pixels(crown)
     yield from window.scroll_to("Amount", sidebar)
     yield from window.fill("Amount", "2", sidebar, beside=FIELD)
     assert picture().layers[0].motion.sway.amount == 2
-    assert np.abs(window.pixels(part(window, CROWN)) - before.astype(float)).mean() > 1
+    assert changes(window, crown, before) > 1
     yield from window.screenshot("09-stronger")
 
 
 def test_overlays_are_switched_in_blender_s_popover(window):
     yield from window.settle()
-    bent = bent_line(window)
     yield from window.cut_out("sway-line", window.box("VIEW_3D"), 0.6)
-    header = window.box("VIEW_3D", "HEADER")
-    along = [(x, header.middle[1]) for x in range(header.x + header.width - 10, header.middle[0], -10)]
-    switch = yield from window.point_at("overlay.show_overlays", along)
-    yield from window.click((switch[0] + 18, switch[1]))
-    words = yield from window.see("Sway Lines")
+    yield from open_overlays(window)
+    yield from window.see("Sway Lines")
     yield from window.screenshot("10-overlays")
-    assert np.array_equal(bent_line(window), bent)
-    yield from window.click(words)
-    without = lambda: (bent_line(window) != bent).any(2).sum()  # noqa: E731
-    yield from window.until(lambda: without() > 400, 20, lambda: f"{without()} pixels differ without the sway line")
-    yield from window.screenshot("11-without-sway-line")
-    yield from window.click(words)
-    yield from window.until(lambda: without() == 0, 20, lambda: f"{without()} pixels differ with it again")
+    yield from switch_off_and_on(window, "Sway Lines", bent_line(window), least=400)
     yield from window.key("ESC")
 
 
@@ -215,3 +172,61 @@ def test_the_compositor_shows_the_node_and_its_picture(window):
     yield from window.screenshot("16-compositor")
     nodes = window.box("NODE_EDITOR")
     yield from window.cut_out("node", Box(nodes.middle[0] - 510, nodes.y + 110, 830, 320), 0.6)
+
+
+def test_the_file_is_saved_with_its_frames_beside_it(window):
+    yield from window.key("S", at=window.box("NODE_EDITOR").middle, ctrl=True)
+    yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
+    yield from window.screenshot("17-save")
+    yield from window.save_file(FILE, "Save Blender File")
+    yield from window.until(FILE.is_file, 20, "no file")
+    assert Path(bpy.data.filepath) == FILE and state().folder.startswith("//stillwater"), state().folder
+    assert len(list((FILE.parent / "stillwater").rglob("*.exr"))) >= 24
+
+
+def is_whole():
+    assert [layer.name for layer in picture().layers] == ["Tree", "Background"] and picture().plane.visible_get()
+    assert bpy.context.scene.frame_end == 24 and bpy.context.mode == "OBJECT"
+    assert state().there == "1-24" and state().state == "done"
+
+
+def test_undo_goes_back_to_the_start_step_by_step(window):
+    yield from window.click("Layout", window.box("TOPBAR", "WINDOW"))
+    yield from window.move(window.box("VIEW_3D").middle)
+    steps = 0
+    while picture() is not None:
+        layers = len(picture().layers)
+        yield from window.stroke("Z", ctrl=True)
+        steps += 1
+        assert steps < STEPS, "the picture never goes"
+        assert picture() is None or len(picture().layers) in (layers, layers - 1)
+    assert not [thing for thing in bpy.data.objects if thing.type in ("EMPTY", "GREASEPENCIL")]
+    assert bpy.context.scene.view_settings.view_transform == "AgX" and bpy.context.scene.camera.name == "Camera"
+    yield from window.see("Open Picture", window.box("VIEW_3D", "UI"))
+    yield from window.screenshot("18-undone")
+
+
+def test_redo_brings_all_of_it_again(window):
+    """And the step that was undone before."""
+    yield from window.move(window.box("VIEW_3D").middle)
+    steps = 0
+    while bpy.ops.ed.redo.poll():
+        yield from window.stroke("Z", ctrl=True, shift=True)
+        steps += 1
+        assert steps < STEPS, "it never ends"
+    is_whole()
+    assert picture().layers[0].motion.sway.amount == 1
+    yield from window.until(is_live, 60, "it is not live")
+    yield from window.screenshot("19-redone")
+
+
+def test_the_saved_file_is_opened_and_works(window):
+    yield from window.key("O", at=window.box("VIEW_3D").middle, ctrl=True)
+    if bpy.data.is_dirty:
+        yield from window.click("Don't Save", lowest=True)
+    yield from window.until(lambda: window.has("FILE_BROWSER"), 10, "no file browser")
+    yield from window.open_file(FILE, "Open")
+    yield from window.until(lambda: picture().layers[0].motion.sway.amount == 2, 20, "not opened")
+    is_whole()
+    yield from window.until(is_live, 60, "it is not live")
+    yield from window.screenshot("20-opened-again")

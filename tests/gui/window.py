@@ -6,6 +6,7 @@ file browser or a render has opened a window of its own, that one is meant.
 """
 
 import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -226,6 +227,12 @@ class Window:
         self._send(name, "RELEASE", **held)
         yield from self.settle()
 
+    def stroke(self, name: str, **held: bool):
+        """Presses a key, as quickly as somebody who presses it again and again."""
+        self._send(name, "PRESS", **held)
+        self._send(name, "RELEASE", **held)
+        yield
+
     def type(self, text: str):
         """Types into the field that takes letters now."""
         for letter in text:
@@ -246,6 +253,23 @@ class Window:
         yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path))
         yield from self.key("RET")  # what it made of the path stands in the field for the name, which takes letters now
         yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
+
+    def save_file(self, path: Path, button: str):
+        """Types folder and name of a file into the open file browser, and clicks on the button that ends it."""
+        yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path.parent))
+        yield from self.key("RET")  # the field goes on taking letters
+        below = self.box("FILE_BROWSER", "EXECUTE")
+        yield from self.fill((below.x + below.width // 4, below.middle[1]), path.name)
+        yield from self.click(button, below)
+
+    def drop_file(self, path: Path, place: tuple[int, int]):
+        """Drops a file of a file manager's at a place."""
+        yield from self.move(place)
+        down = bpy.context.window_manager.windows[0].height - 1 - place[1]
+        command = [sys.executable, Path(__file__).with_name("drop.py"), path, str(place[0]), str(down)]
+        source = subprocess.Popen(command)
+        yield from self.until(lambda: source.poll() is not None, PATIENCE, "the file is still in the air")
+        assert source.returncode == 0, "the window does not take it"
 
     def _send(self, kind: str, value: str, **more):
         window = self._window

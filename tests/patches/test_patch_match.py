@@ -78,10 +78,28 @@ def test_it_is_never_worse_than_its_start():
     assert np.all(once <= before) and np.all(twice <= once) and (twice < before).mean() > 0.5
 
 
-def test_what_began_nowhere_finds_something():
-    start = np.full((*TARGET.shape[:2], 2), 3000, np.int16)
-    assert np.all(match(TARGET, SOURCE, start, rounds=0)[1] == np.iinfo(np.int32).max)
-    assert np.all(match(TARGET, SOURCE, start, rounds=4)[1] < np.iinfo(np.int32).max)
+NOWHERE = np.full((*TARGET.shape[:2], 2), 3000, np.int16)
+UNMATCHED = np.iinfo(np.int32).max
+
+
+def test_what_begins_nowhere_begins_by_chance():
+    offset, apart = match(TARGET, SOURCE, NOWHERE, rounds=0)
+    assert np.all(apart < UNMATCHED)
+    assert len(np.unique(offset.reshape(-1, 2), axis=0)) > 500
+
+
+def test_the_only_place_is_found_however_small():
+    centres = np.zeros(SOURCE.shape[:2], np.float32)
+    centres[30, 50] = 1
+    offset, apart = match(TARGET, SOURCE, NOWHERE, centres, rounds=0)
+    y, x = np.mgrid[HALF : 40 - HALF, HALF : 70 - HALF]
+    assert np.all(x + offset[..., 0] == 50) and np.all(y + offset[..., 1] == 30) and np.all(apart < UNMATCHED)
+    near = np.hypot(x - 50, y - 30) <= 12
+    assert np.array_equal(match(TARGET, SOURCE, NOWHERE, centres, rounds=2, radius=12)[1] < UNMATCHED, near)
+
+
+def test_without_a_place_all_stay_unmatched():
+    assert np.all(match(TARGET, SOURCE, centres=np.zeros(SOURCE.shape[:2], np.float32))[1] == UNMATCHED)
 
 
 def test_it_looks_only_where_it_may():
@@ -89,7 +107,7 @@ def test_it_looks_only_where_it_may():
     centres[10:30, 20:40] = 1
     offset, apart = match(TARGET, SOURCE, centres=centres, radius=25)
     y, x = np.mgrid[HALF : 40 - HALF, HALF : 70 - HALF]
-    there = apart < np.iinfo(np.int32).max
+    there = apart < UNMATCHED
     assert there.mean() > 0.3
     assert np.all(centres[(y + offset[..., 1])[there], (x + offset[..., 0])[there]] == 1)
     assert np.all(np.hypot(offset[..., 0], offset[..., 1])[there] <= 25)

@@ -6,7 +6,7 @@ run_packages="ffmpeg"
 blender_packages="libxi6 libxxf86vm1 libxfixes3 libxrender1 libxkbcommon0 libsm6 libice6 libgl1 libegl1
   libegl-mesa0 libgl1-mesa-dri"
 # A Blender that shows a window, with what Debian only recommends to it, a screen for it, and what looks at the screen.
-window_packages="blender python3-cattr python3-numpy python3-requests xvfb imagemagick libegl1 libgl1-mesa-dri"
+window_packages="blender python3-cattr python3-numpy python3-requests python3-xlib xvfb imagemagick libegl1 libgl1-mesa-dri"
 test_packages="qemu-user openimageio-tools mount"
 
 as_root() {

@@ -23,6 +23,8 @@ _HOMES = {
     "matte": "matting",
     "foreground": "matting",
     "inpaint": "inpainting",
+    "make_cyclic": "inpainting",
+    "peel": "peeling",
     "Wind": "motion",
     "drift": "motion",
     "sway": "motion",

@@ -60,6 +60,52 @@ def inpaint(
     return np.where(np.asarray(hole, np.float32)[..., None] >= 0.5, filled, given)
 
 
+def make_cyclic(
+    picture: ArrayLike,
+    along_x: bool = True,
+    along_y: bool = False,
+    known: ArrayLike | None = None,
+    patch: int = 9,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> NDArray[np.float32]:
+    """Make a picture endless: it wraps without a seam, so that it can drift for ever.
+
+    The picture is kept as it is and continued, along the axes asked for, by a strip a quarter of its side wide, filled as
+    `inpaint` does, that leads from its end to its beginning. The result is one period.
+
+    Args:
+        picture: height x width x 3 or 4, display-referred, straight alpha.
+        along_x, along_y: the axes.
+        known: height x width, bool or 0..1; what is below one half (hidden by something in front) is filled too.
+            None = all is known.
+        patch: see `inpaint`.
+        seed: see `inpaint`.
+        progress: see `inpaint`.
+
+    Returns:
+        height x width x 4, straight alpha; sides that were continued are a quarter longer (rounded up). Known pixels are
+        those of the picture, bit by bit.
+
+    Raises:
+        ValueError: another shape or size; nothing known; numbers that are not finite; a patch out of its range.
+        stillwater.Cancelled: `progress` said so.
+
+    Source: Chuang et al. 2005, 3 (clouds as a cyclic texture); see `inpaint`.
+    """
+    given = _with_alpha(picture)
+    whole = _straight(
+        _stillwater.make_cyclic_by_exemplars(
+            _premultiplied(given), along_x=along_x, along_y=along_y, patch=patch, seed=seed, progress=progress,
+            known=None if known is None else np.asarray(known, np.float32),
+        )
+    )  # fmt: skip
+    kept = True if known is None else np.asarray(known, np.float32)[..., None] > 0.5
+    height, width = given.shape[:2]
+    whole[:height, :width] = np.where(kept, given, whole[:height, :width])
+    return whole
+
+
 def _with_alpha(picture: ArrayLike) -> NDArray[np.float32]:
     picture = np.asarray(picture, np.float32)
     if picture.ndim == 3 and picture.shape[2] == 3:

@@ -53,7 +53,7 @@ def trimap(
     """
     if (scribbles is None) == (lasso is None):
         raise engine.BadInput("trimap: one of scribbles and lasso is given, not both or none")
-    image = _premultiplied(picture)
+    image = _colours(picture)
     if lasso is not None:
         return engine.trimap_from_lasso(image, [_place(f"lasso[{i}]", point) for i, point in enumerate(lasso)], feather, snap)
     if unknown := set(scribbles) - {"foreground", "background"}:
@@ -90,7 +90,7 @@ def matte(
     """
     options = engine.MatteOptions()
     options.method = _method(method)
-    return engine.matte(_premultiplied(picture), trimap, options, progress)
+    return engine.matte(_colours(picture), trimap, options, progress)
 
 
 def foreground(picture: ArrayLike, alpha: ArrayLike, *, progress: Progress | None = None) -> tuple[Array, Array]:
@@ -111,8 +111,8 @@ def foreground(picture: ArrayLike, alpha: ArrayLike, *, progress: Progress | Non
 
     Source: Germer, Uelwer, Conrad and Harmeling 2020, "Fast multi-level foreground estimation", eq. 4.
     """
-    front, back = engine.foreground_and_background(_premultiplied(picture), alpha, progress=progress)
-    return front[..., :3].copy(), back[..., :3].copy()
+    front, back = engine.foreground_and_background(_colours(picture), alpha, progress=progress)
+    return front[..., :3], back[..., :3]
 
 
 def drawn_trimap(picture: ArrayLike, drawn: ScribbleMatte | LassoMatte) -> Array:
@@ -136,6 +136,12 @@ def write_matte(path: str | os.PathLike[str], alpha: ArrayLike) -> None:
     white = np.ones_like(grey)
     linear = os.fspath(path).lower().endswith(".exr")
     write(path, np.concatenate([white, white, white, grey] if linear else [grey, grey, grey, white], axis=2))
+
+
+def _colours(picture: ArrayLike) -> Array:
+    """Height x width x 3, or x 4 premultiplied, as the engine takes it."""
+    picture = np.asarray(picture, np.float32)
+    return picture if picture.ndim == 3 and picture.shape[2] == 3 else _premultiplied(picture)
 
 
 def _strokes(name: str, strokes: Sequence[Mapping[str, Any]]) -> list:

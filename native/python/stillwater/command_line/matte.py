@@ -90,5 +90,5 @@ def _named(path: str):
     try:
         yield
     except (engine.BadInput, engine.FileError) as error:
-        sentence = str(error)
+        sentence = str(error).removeprefix("trimap: ")
         raise Refused(sentence if sentence.startswith(path) else f"{path}: {sentence}") from None

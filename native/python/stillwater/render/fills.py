@@ -1,6 +1,7 @@
 """How holes are filled: what a recipe says, its files read, made ready for the engine."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from .. import _stillwater as engine
 from ..recipe import RecipeError
 from ..recipe.mattes import ExemplarFill
-from .mattes import Given, MatteReader, Progress, ToSolve, size_of, whole
+from .mattes import Given, MatteReader, Progress, ToSolve, whole
 
 
 @dataclass(frozen=True)
@@ -18,10 +19,11 @@ class Exemplar:
     fill: ExemplarFill
     source: Given | ToSolve | None
     regions: list[np.ndarray]  # of its touch-ups, H x W
+    size: tuple[int, int]  # width and height of the picture
 
-    def on(self, left: np.ndarray, progress: Progress):
-        """For the engine, on what is left of the picture (H x W x 4). Throws RecipeError."""
-        source = None if self.source is None else whole(self.source.on(left, progress), size_of(left))
+    def on(self, left: Callable[[], np.ndarray], progress: Progress):
+        """For the engine, on what is left of the picture (gives H x W x 4). Throws RecipeError."""
+        source = None if self.source is None else whole(self.source.on(left, progress), self.size)
         fill, places = self.fill, zip(self.regions, self.fill.touch_up, strict=True)
         return engine.ExemplarFill(
             patch=fill.patch,
@@ -46,4 +48,4 @@ def exemplar(place: str, fill: ExemplarFill, reader: MatteReader) -> Exemplar:
             problems += error.problems
     if problems:
         raise RecipeError(*problems)
-    return Exemplar(fill, source, regions)
+    return Exemplar(fill, source, regions, reader.size)

@@ -18,11 +18,11 @@ from .resolve import Now, Timeline
 ENGINES = {
     "picture": 1,
     "layers": 5,
-    "frame": 4,
+    "frame": 5,
     "wind": 1,
     "still": 1,
-    "sway": 1,
-    "ripple": 2,
+    "sway": 2,
+    "ripple": 3,
     "bob": 1,
     "drift": 2,
 }

@@ -120,8 +120,8 @@ class Live:
             matte: how much of each pixel is covered, as grey, instead of the colours.
 
         Returns:
-            float32, height x width x 4: scene-linear, premultiplied, the bottom row first, as Blender keeps pictures.
-            The next call writes over it.
+            float32, height x width x 4: scene-linear, premultiplied, the bottom row first, as Blender keeps pictures;
+            within 1/40 of a level of 256 of what a bake gives. The next call writes over it.
 
         Raises:
             ValueError: no recipe was taken yet, or it has no such layer.

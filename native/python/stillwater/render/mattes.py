@@ -25,7 +25,7 @@ class Given:
     def bound(self):
         return self.matte
 
-    def on(self, left: np.ndarray, progress: Progress):
+    def on(self, left: Callable[[], np.ndarray], progress: Progress):
         return self.matte
 
 
@@ -37,9 +37,10 @@ class ToSolve:
     trimap: Callable[[np.ndarray], np.ndarray]  # of the picture, H x W x 4
     method: str
     bound: object
+    unknown: int  # pixels
 
-    def on(self, left: np.ndarray, progress: Progress, finest: int = 1):
-        """On what is left of the picture (H x W x 4): an engine.MatteInBox. Throws RecipeError.
+    def on(self, left: Callable[[], np.ndarray], progress: Progress, finest: int = 1):
+        """On what is left of the picture (gives H x W x 4): an engine.MatteInBox. Throws RecipeError.
 
         `finest`: 1, or 2, 4, 8: solved on a picture so many times smaller, and enlarged.
         """
@@ -47,7 +48,8 @@ class ToSolve:
         options.method = METHODS[self.method]
         options.finest = finest
         try:
-            return in_box(engine.matte(left, self.trimap(left), options, progress))
+            picture = left()
+            return in_box(engine.matte(picture, self.trimap(picture), options, progress))
         except (engine.BadInput, engine.NotConverged) as error:
             raise RecipeError(f"{self.place}.{error}") from None
 
@@ -80,6 +82,11 @@ class MatteReader:
                 )
         raise AssertionError(form)
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture."""
+        return size_of(self._picture)
+
     def region(self, place: str, drawn: Stroke) -> np.ndarray:
         """What a stroke covers, H x W, 0 or 1."""
         try:
@@ -109,7 +116,7 @@ class MatteReader:
         if not (known == 1).any() or not (known == 0).any():
             missing = "foreground" if not (known == 1).any() else "background"
             raise RecipeError(f"{place}: no pixel of its trimap is {missing} (some must be)")
-        return ToSolve(place, trimap, method, in_box((known > 0).astype(np.float32)))
+        return ToSolve(place, trimap, method, in_box((known > 0).astype(np.float32)), int((known == 0.5).sum()))
 
 
 def in_box(matte: np.ndarray):

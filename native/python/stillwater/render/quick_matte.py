@@ -51,7 +51,7 @@ def quick_matte(
         picture = pictures.of(sources)
         matte = MatteReader(document, picture).read(place, form)
         left = _left(sources, cache, picture, index)
-        solved = _solved(matte, left, beat) if isinstance(matte, ToSolve) else matte.on(left, lambda phase, share: True)
+        solved = _solved(matte, left, beat) if isinstance(matte, ToSolve) else matte.matte
         plane = np.round(255 * whole(solved, sources.size)).astype(np.uint8)
         cache.store(key, Prepared({"matte": plane}, {"of": sources.layer_keys[index]}))
     if cache.trouble:
@@ -82,6 +82,5 @@ def _solved(matte: ToSolve, left: np.ndarray, beat: Callable[[], None]):
         beat()
         return True
 
-    unknown = np.count_nonzero(matte.trimap(left) == 0.5)
-    finest = min(8, 2 ** math.ceil(max(0.0, math.log2(max(1, unknown) / AT_ONCE) / 2)))
-    return matte.on(left, still_there, finest)
+    finest = min(8, 2 ** math.ceil(max(0.0, math.log2(max(1, matte.unknown) / AT_ONCE) / 2)))
+    return matte.on(lambda: left, still_there, finest)

@@ -98,7 +98,7 @@ def _taken(peelings: dict, images: Images, i: int, feather: float, beat: Callabl
         return True
 
     arrays, facts = {}, {}
-    left = peelings["colour"].left()
+    left = peelings["colour"].left
     matte = None if images.mattes[i] is None else images.mattes[i].on(left, still_there)
     for part, peeling in peelings.items():
         if matte is None:
@@ -115,7 +115,7 @@ def _taken(peelings: dict, images: Images, i: int, feather: float, beat: Callabl
     return Prepared(arrays, facts)
 
 
-def _fill_of(fill, part: str, left: np.ndarray, progress: Callable):
+def _fill_of(fill, part: str, left: Callable, progress: Callable):
     """As the engine wants it. Alpha goes on smoothly where colours are filled from patches."""
     if isinstance(fill, Exemplar):
         return fill.on(left, progress) if part == "colour" else engine.Fill.push_pull
