@@ -72,6 +72,14 @@ Stroke stroke_of(const std::vector<std::array<double, 3>>& points, double width)
   return stroke;
 }
 
+py::array_t<float> drawn(const std::array<int, 2>& size, const Stroke& stroke, const std::string& name) {
+  Mask mask = Mask::zeros(size[1], size[0]);
+  draw(stroke, name, mask);
+  Plane plane;
+  mask.convertTo(plane, CV_32F, 1 / 255.0);
+  return as_array(plane);
+}
+
 py::array_t<float> scribbled(const std::array<int, 2>& size, const std::vector<Stroke>& foreground,
                              const std::vector<Stroke>& background) {
   return as_array(grey_of(trimap_from_scribbles(cv::Size(size[0], size[1]), {foreground, background})));
@@ -178,6 +186,7 @@ void bind_matting(py::module_& module) {
       .def_readwrite("big_iterations", &ForegroundOptions::big_iterations)
       .def_readwrite("small_size", &ForegroundOptions::small_size);
   py::class_<Stroke>(module, "Stroke").def(py::init(&stroke_of), py::arg("points"), py::arg("width"));
+  module.def("drawn", &drawn, py::arg("size"), py::arg("stroke"), py::arg("name") = "stroke");
   module.def("trimap_from_scribbles", &scribbled, py::arg("size"), py::arg("foreground"), py::arg("background"));
   module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"),
              py::arg("snap"));
