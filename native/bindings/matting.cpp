@@ -210,7 +210,7 @@ void bind_matting(py::module_& module) {
              py::arg("nearness") = 1.0);
   module.def("colour_prior", &colour_prior_arrays, py::arg("picture"), py::arg("trimap"));
   module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
-             py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
+             py::arg("tolerance") = 1e-6, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
              py::arg("spacing") = 8);
   module.def("matte", &matte_array, py::arg("picture"), py::arg("trimap"), py::arg("options") = MatteOptions(),
              py::arg("progress") = Progress::Listener());
