@@ -9,6 +9,7 @@
 #include "layers/closed_form.h"
 #include "layers/coarse_to_fine.h"
 #include "layers/colour_clusters.h"
+#include "layers/colour_prior.h"
 #include "layers/colour_samples.h"
 #include "layers/drawn_trimap.h"
 #include "layers/foreground.h"
@@ -113,6 +114,12 @@ py::tuple colour_sample_arrays(const FloatArray& picture, const FloatArray& trim
   return py::make_tuple(as_array(samples.foreground), as_array(samples.background), as_array(samples.misfit));
 }
 
+py::tuple colour_prior_arrays(const FloatArray& picture, const FloatArray& trimap) {
+  const MattePrior prior =
+      colour_prior(as_image<cv::Vec4f>(picture, "picture"), trimap_from_grey(as_image<float>(trimap, "trimap")));
+  return py::make_tuple(as_array(prior.alpha), as_array(prior.weight));
+}
+
 // The clusters' means and covariances.
 py::list cluster_list(const FloatArray& colours, const std::vector<double>& weights, const ClusterOptions& options) {
   const auto image = as_image<cv::Vec3f>(colours, "colours");
@@ -201,6 +208,7 @@ void bind_matting(py::module_& module) {
   module.def("matting_laplacian", &laplacian_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon"));
   module.def("sample_colours", &colour_sample_arrays, py::arg("picture"), py::arg("trimap"), py::arg("iterations") = 8,
              py::arg("nearness") = 1.0);
+  module.def("colour_prior", &colour_prior_arrays, py::arg("picture"), py::arg("trimap"));
   module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
              py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
              py::arg("spacing") = 8);

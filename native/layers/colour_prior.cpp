@@ -16,6 +16,8 @@ constexpr int grain = 16;
 constexpr int radius = 2;
 // Keeps the colours' covariance invertible (colour squared).
 constexpr double flat = 1e-5;
+// Less confidence than this is none.
+constexpr double negligible = 1e-3;
 
 double distance_between(const cv::Vec4f& a, const cv::Vec4f& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
@@ -51,9 +53,11 @@ Plane trust_in_known(const Trimap& trimap, double crowd) {
 
 }  // namespace
 
-MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options) {
+MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options,
+                        const std::function<void(double)>& done) {
   const Plane trust = trust_in_known(trimap, options.crowd);
-  const ColourSamples samples = sample_colours(picture, trimap, cv::Mat_<unsigned char>(trust > 0), options.samples);
+  const cv::Mat_<unsigned char> trusted_at(trust > 0);
+  const ColourSamples samples = sample_colours(picture, trimap, trusted_at, options.samples, done);
   MattePrior prior{grey_of(trimap), Plane::zeros(trimap.size())};
   const auto each_sampled = [&](const auto& work) {
     parallel_rows(trimap.rows, grain, [&](int first, int last) {
@@ -68,10 +72,10 @@ MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourP
   each_sampled([&](int y, int x) {
     const double apart = distance_between(samples.foreground(y, x), samples.background(y, x)) / options.separation;
     const double fits = std::exp(-samples.misfit(y, x) / options.misfit);
+    const double trusted = std::min(1.0, apart * apart) * fits * trust(y, x);
+    if (trusted < negligible) return;
     const double rough = fit_affine_alpha(picture, prior.alpha, {x, y}, radius, flat).rest;
-    const double smooth = std::exp(-rough / options.roughness);
-    prior.weight(y, x) =
-        static_cast<float>(options.weight * std::min(1.0, apart * apart) * fits * smooth * trust(y, x));
+    prior.weight(y, x) = static_cast<float>(options.weight * trusted * std::exp(-rough / options.roughness));
   });
   return prior;
 }

@@ -18,7 +18,9 @@ struct ColourPriorOptions {
 /// far that can be trusted: where colours fit, are not alike, come from more than a thin scribble, and give an alpha
 /// that follows the picture's colours locally, as the matting Laplacian asks (within 5 x 5 pixels). The confidence of a
 /// pixel's samples is an idea of robust and of shared matting (Wang and Cohen 2007, eq. 7; Gastal and Oliveira 2010,
-/// 4.3); it pulls the closed form's solution as there.
-MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options = {});
+/// 4.3); it pulls the closed form's solution as there. `done` is told how far it is,
+/// 0..1.
+MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options = {},
+                        const std::function<void(double)>& done = [](double) {});
 
 }  // namespace stillwater

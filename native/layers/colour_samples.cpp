@@ -66,18 +66,20 @@ class Search {
         pairs_(picture.size(), cv::Vec2i(static_cast<int>(fronts_.size()) / 2, static_cast<int>(backs_.size()) / 2)),
         costs_(picture.size(), std::numeric_limits<float>::infinity()) {}
 
-  ColourSamples best() {
+  ColourSamples best(const std::function<void(double)>& done) {
     const auto looked_for = [this](int y, int x) {
       return wanted_(y, x) && trimap_(y, x) == known::unknown;
     };
     if (!fronts_.empty() && !backs_.empty())
       for (int round = 0; round < options_.iterations; ++round)
-        for (const int colour : {0, 1})
+        for (const int colour : {0, 1}) {
+          done((round + 0.5 * colour) / options_.iterations);
           parallel_rows(picture_.rows, grain, [&](int first, int last) {
             for (int y = first; y < last; ++y)
               for (int x = (y + colour) % 2; x < picture_.cols; x += 2)
                 if (looked_for(y, x)) improve(y, x, round);
           });
+        }
     return found();
   }
 
@@ -172,8 +174,8 @@ float best_mix(const cv::Vec4f& colour, const cv::Vec4f& foreground, const cv::V
 }
 
 ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
-                             const ColourSampleOptions& options) {
-  return Search(picture, trimap, wanted, options).best();
+                             const ColourSampleOptions& options, const std::function<void(double)>& done) {
+  return Search(picture, trimap, wanted, options).best(done);
 }
 
 }  // namespace stillwater

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "core/image.h"
 #include "layers/trimap.h"
@@ -27,8 +28,10 @@ struct ColourSamples {
 ///
 /// Red and black pixels take turns, and random numbers are keyed by place: the same for any number of threads. The
 /// trimap has foreground and background; samples are given to those of its unknown pixels that are `wanted` (not 0).
+/// `done` is told how far it is, 0..1.
 ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
-                             const ColourSampleOptions& options = {});
+                             const ColourSampleOptions& options = {},
+                             const std::function<void(double)>& done = [](double) {});
 
 /// How much of the foreground, 0..1, mixes with the background best to a colour (He et al., eq. 2); 1 where they are
 /// equal.
