@@ -14,7 +14,11 @@ PYBIND11_MODULE(_stillwater, module) {
   py::register_exception<stillwater::NotConverged>(module, "NotConverged", PyExc_RuntimeError);
   stillwater::bind_core(module);
   stillwater::bind_picture(module);
+  stillwater::bind_patches(module);
   stillwater::bind_layers(module);
+  stillwater::bind_peel(module);
+  stillwater::bind_matting(module);
+  stillwater::bind_inpaint(module);
   stillwater::bind_motion(module);
   stillwater::bind_water(module);
   stillwater::bind_frame(module);

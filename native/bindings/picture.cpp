@@ -68,6 +68,8 @@ void bind_picture(py::module_& module) {
   module.def(
       "display_to_scene", [](const FloatArray& a) { return pixels_through(&display_to_scene, a); }, py::arg("rgba"));
   module.def(
+      "display_to_screen", [](const FloatArray& a) { return pixels_through(&display_to_screen, a); }, py::arg("rgba"));
+  module.def(
       "scene_to_display", [](const FloatArray& a) { return pixels_through(&scene_to_display, a); }, py::arg("rgba"));
   module.def(
       "round_mantissa", [](const FloatArray& a) { return through(&round_mantissa, a); }, py::arg("a"));

@@ -48,4 +48,13 @@ void parallel_rows(int rows, int grain, const std::function<void(int, int)>& wor
   if (first_error) std::rethrow_exception(first_error);
 }
 
+void parallel_rows(int rows, int grain, const std::function<void(int, int)>& work, const std::function<void(double)>& at) {
+  constexpr int pieces_a_turn = 8;
+  for (int first = 0; first < rows; first += grain * pieces_a_turn) {
+    const int some = std::min(rows - first, grain * pieces_a_turn);
+    parallel_rows(some, grain, [&](int from, int to) { work(first + from, first + to); });
+    if (at) at(static_cast<double>(first + some) / rows);
+  }
+}
+
 }  // namespace stillwater

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "core/parallel.h"
@@ -20,80 +23,69 @@ struct RowState {
   float moving[length];
   float most[length];
   int owner[length];
-  unsigned char needed[length];
+  unsigned char around_needed[8 + length + 8] = {};
+  unsigned char* const needed = around_needed + 8;
   int open = 0;  // pixels that are needed
-
-  void begin(int count) {
-    std::fill_n(through, count, 1.0f);
-    std::fill_n(moving, count, 0.0f);
-    std::fill_n(most, count, 0.0f);
-    std::fill_n(owner, count, no_layer);
-    std::fill_n(needed, count, static_cast<unsigned char>(1));
-    open = count;
-  }
 };
 
+static_assert(std::endian::native == std::endian::little);
+
+std::uint64_t eight_bytes(const unsigned char* bytes) {
+  std::uint64_t eight;
+  std::memcpy(&eight, bytes, sizeof eight);
+  return eight;
+}
+
+// How many bytes there are before the first, or behind the last, that is not 0; at most `count`. Seven more are read.
+int zeros_before(const unsigned char* bytes, int count) {
+  for (int i = 0; i < count; i += 8)
+    if (const std::uint64_t eight = eight_bytes(bytes + i)) return std::min(count, i + std::countr_zero(eight) / 8);
+  return count;
+}
+
+int zeros_behind(const unsigned char* bytes, int count) {
+  for (int i = 0; i < count; i += 8)
+    if (const std::uint64_t eight = eight_bytes(bytes + count - i - 8))
+      return std::min(count, i + std::countl_zero(eight) / 8);
+  return count;
+}
+
+// Composes one tile, row by row: what is known of a row stays in the processor's nearest cache.
 class TileComposer {
  public:
-  explicit TileComposer(const std::vector<ComposedLayer>& layers) : layers_(layers) {}
-
-  // Leaves the colours in `combined`, which has the tile's size.
-  void compose(const cv::Rect& tile, Rgba combined) {
-    combined_ = std::move(combined);
-    for (int y = 0; y < tile.height; ++y) {
-      rows_[y].begin(tile.width);
-      std::fill_n(combined_[y], tile.width, cv::Vec4f());
-    }
-    int open = tile.area();
-    for (int i = 0; i < static_cast<int>(layers_.size()) && open > 0; ++i) {
+  // `traced`: write_matte() and write_flow() will be asked.
+  TileComposer(const std::vector<ComposedLayer>& layers, const cv::Rect& tile, bool traced)
+      : layers_(layers), tile_(tile), traced_(traced) {
+    for (int i = 0; i < static_cast<int>(layers_.size()); ++i) {
       if (layers_[i].opacity <= 0) continue;
       const cv::Rect part = layers_[i].motion->covered(tile);
-      for (int y = part.y; y < part.br().y; ++y) {
-        RowState& row = rows_[y - tile.y];
-        open -= row.open;
-        if (row.open > 0) lay_under(i, part, y, tile, row);
-        open += row.open;
-      }
+      if (!part.empty()) parts_.push_back({i, part});
     }
   }
 
-  void write_matte(const cv::Rect& tile, Plane& matte) const {
-    for (int y = 0; y < tile.height; ++y) std::copy_n(rows_[y].moving, tile.width, matte[tile.y + y] + tile.x);
+  // Row y of the output; colours go to `combined`.
+  void compose(int y, cv::Vec4f* combined) {
+    begin(y, combined);
+    for (const Part& part : parts_)
+      if (row_.open > 0 && y >= part.place.y && y < part.place.br().y) lay_under(part);
   }
 
-  void write_flow(const cv::Rect& tile, Field& flow) const {
-    for (int y = 0; y < tile.height; ++y)
-      write_flow(Run{tile.x, tile.y + y, tile.width}, rows_[y], flow[tile.y + y] + tile.x);
-  }
-
- private:
-  // One row of one layer, as far as it is needed.
-  void lay_under(int index, const cv::Rect& part, int y, const cv::Rect& tile, RowState& row) {
-    const ComposedLayer& layer = layers_[index];
-    int first = part.x - tile.x, last = first + part.width - 1;
-    while (first <= last && !row.needed[first]) ++first;
-    while (first < last && !row.needed[last]) --last;
-    if (first > last) return;
-    const Run open{tile.x + first, y, last - first + 1};
-    if (!layer.motion->draw(open, row.needed + first, drawn_.data())) return;
-    const StillwaterComposedRun run{combined_[y - tile.y][first].val, row.through + first, row.moving + first,
-                                    row.most + first, row.owner + first, row.needed + first};
-    row.open -= stillwater_lay_under(drawn_.data()->val, layer.opacity, layer.moves ? 1.0f : 0.0f, index, open.count, run);
-  }
+  // Of the row composed last.
+  void write_matte(float* matte) const { std::copy_n(row_.moving, tile_.width, matte); }
 
   // Owners change rarely along a row: each stretch of one owner is one call.
-  void write_flow(const Run& run, const RowState& row, cv::Vec2f* out) const {
+  void write_flow(cv::Vec2f* out) const {
     float x[tile_side], y[tile_side];
-    for (int i = 0; i < run.count;) {
-      const int owner = row.owner[i];
+    for (int i = 0; i < tile_.width;) {
+      const int owner = row_.owner[i];
       int count = 1;
-      while (i + count < run.count && row.owner[i + count] == owner) ++count;
+      while (i + count < tile_.width && row_.owner[i + count] == owner) ++count;
       if (owner == no_layer || layers_[owner].motion->at_rest()) {
         std::fill_n(out + i, count, cv::Vec2f());
       } else {
         for (int j = 0; j < count; ++j) {
-          x[j] = static_cast<float>(run.x + i + j) + 0.5f;
-          y[j] = static_cast<float>(run.y) + 0.5f;
+          x[j] = static_cast<float>(tile_.x + i + j) + 0.5f;
+          y[j] = static_cast<float>(y_) + 0.5f;
         }
         layers_[owner].motion->flow(x, y, count);
         for (int j = 0; j < count; ++j) out[i + j] = {x[j], y[j]};
@@ -102,9 +94,48 @@ class TileComposer {
     }
   }
 
+ private:
+  struct Part {
+    int layer;
+    cv::Rect place;
+  };
+
+  void begin(int y, cv::Vec4f* combined) {
+    y_ = y, combined_ = combined;
+    std::memset(combined->val, 0, tile_.width * sizeof *combined);
+    std::fill_n(row_.through, tile_.width, 1.0f);
+    std::fill_n(row_.needed, tile_.width, static_cast<unsigned char>(1));
+    row_.open = tile_.width;
+    if (!traced_) return;
+    std::fill_n(row_.moving, tile_.width, 0.0f);
+    std::fill_n(row_.most, tile_.width, 0.0f);
+    std::fill_n(row_.owner, tile_.width, no_layer);
+  }
+
+  // The row of one layer, as far as it is needed.
+  void lay_under(const Part& part) {
+    const ComposedLayer& layer = layers_[part.layer];
+    const unsigned char* needed = row_.needed + (part.place.x - tile_.x);
+    const int hidden = zeros_before(needed, part.place.width), rest = part.place.width - hidden;
+    if (rest == 0) return;
+    const int first = part.place.x - tile_.x + hidden;
+    const Run open{tile_.x + first, y_, rest - zeros_behind(needed + hidden, rest)};
+    const cv::Vec4f* drawn = layer.motion->draw(open, row_.needed + first, drawn_.data());
+    if (!drawn) return;
+    const auto traced = [&](auto* numbers) { return traced_ ? numbers + first : nullptr; };
+    const StillwaterComposedRun run{combined_[first].val, row_.through + first, traced(row_.moving),
+                                    traced(row_.most),    traced(row_.owner),   row_.needed + first};
+    const float moves = layer.moves ? 1.0f : 0.0f;
+    row_.open -= stillwater_lay_under(drawn->val, layer.opacity, moves, part.layer, open.count, run);
+  }
+
   const std::vector<ComposedLayer>& layers_;
-  Rgba combined_;
-  std::array<RowState, tile_side> rows_;
+  cv::Rect tile_;
+  bool traced_;
+  std::vector<Part> parts_;  // where layers may be seen
+  RowState row_;
+  int y_ = 0;
+  cv::Vec4f* combined_ = nullptr;
   std::array<cv::Vec4f, RowState::length> drawn_;
 };
 
@@ -114,13 +145,11 @@ cv::Rect tile_at(int index, const cv::Size& size) {
   return tile & cv::Rect(cv::Point(), size);
 }
 
-// `each` gets a composer and a tile; every tile once.
 template <typename Each>
-void for_tiles(const std::vector<ComposedLayer>& layers, const cv::Size& size, const Each& each) {
+void for_tiles(const cv::Size& size, const Each& each) {
   const int columns = (size.width + tile_side - 1) / tile_side, rows = (size.height + tile_side - 1) / tile_side;
   parallel_rows(columns * rows, 1, [&](int first, int last) {
-    TileComposer composer(layers);
-    for (int i = first; i < last; ++i) each(composer, tile_at(i, size));
+    for (int i = first; i < last; ++i) each(tile_at(i, size));
   });
 }
 
@@ -128,27 +157,30 @@ void for_tiles(const std::vector<ComposedLayer>& layers, const cv::Size& size, c
 
 Composition compose(const std::vector<ComposedLayer>& layers, const cv::Size& size, CompositionWish wish) {
   Composition result{Rgba(size), wish.flow ? Field(size) : Field(), wish.matte ? Plane(size) : Plane()};
-  for_tiles(layers, size, [&](TileComposer& composer, const cv::Rect& tile) {
-    composer.compose(tile, result.combined(tile));
-    if (wish.matte) composer.write_matte(tile, result.matte);
-    if (wish.flow) composer.write_flow(tile, result.flow);
+  for_tiles(size, [&](const cv::Rect& tile) {
+    TileComposer composer(layers, tile, wish.flow || wish.matte);
+    for (int y = tile.y; y < tile.br().y; ++y) {
+      composer.compose(y, result.combined[y] + tile.x);
+      if (wish.matte) composer.write_matte(result.matte[y] + tile.x);
+      if (wish.flow) composer.write_flow(result.flow[y] + tile.x);
+    }
   });
   return result;
 }
 
-Rgba compose_tile(const std::vector<ComposedLayer>& layers, const cv::Rect& tile) {
-  Rgba pixels(tile.size());
-  TileComposer(layers).compose(tile, pixels);
-  return pixels;
+void compose_run(const std::vector<ComposedLayer>& layers, const Run& run, cv::Vec4f* out) {
+  TileComposer(layers, cv::Rect(run.x, run.y, run.count, 1), false).compose(run.y, out);
 }
 
-void compose_tiles(const std::vector<ComposedLayer>& layers, const cv::Size& size,
-                   const std::function<void(const cv::Rect& tile, Rgba pixels)>& take) {
-  for_tiles(layers, size, [&](TileComposer& composer, const cv::Rect& tile) {
-    thread_local Rgba pixels(tile_side, tile_side);
-    const Rgba part = pixels(cv::Rect(cv::Point(), tile.size()));
-    composer.compose(tile, part);
-    take(tile, part);
+void compose_runs(const std::vector<ComposedLayer>& layers, const cv::Size& size,
+                  const std::function<void(const Run& run, cv::Vec4f* pixels)>& take) {
+  for_tiles(size, [&](const cv::Rect& tile) {
+    TileComposer composer(layers, tile, false);
+    std::array<cv::Vec4f, tile_side> pixels;
+    for (int y = tile.y; y < tile.br().y; ++y) {
+      composer.compose(y, pixels.data());
+      take({tile.x, y, tile.width}, pixels.data());
+    }
   });
 }
 

@@ -25,18 +25,18 @@ struct CompositionWish {
   bool flow = true, matte = true;
 };
 
-/// Lays the layers (front first) over each other in fixed tiles, front to back, skipping what is covered already.
-/// The flow belongs to the front-most layer at which the coverage from the front reaches one half, else to the layer
-/// that contributes most; it is 0 where there is no layer.
+/// Lays the layers (front first) over each other in fixed tiles, row by row, front to back, skipping what is covered
+/// already. The flow belongs to the front-most layer at which the coverage from the front reaches one half, else to the
+/// layer that contributes most; it is 0 where there is no layer.
 Composition compose(const std::vector<ComposedLayer>& layers, const cv::Size& size, CompositionWish wish);
 
-/// One tile of that, its colours alone: pixels `tile` of the output.
-Rgba compose_tile(const std::vector<ComposedLayer>& layers, const cv::Rect& tile);
+/// The colours alone of one run of that.
+void compose_run(const std::vector<ComposedLayer>& layers, const Run& run, cv::Vec4f* out);
 
-/// Composes colours tile by tile, for who needs no whole image: `take` gets each tile's place in the output and its
-/// pixels, which it may change; several threads call it. No tile is wider than Run::longest.
-void compose_tiles(const std::vector<ComposedLayer>& layers, const cv::Size& size,
-                   const std::function<void(const cv::Rect& tile, Rgba pixels)>& take);
+/// Composes colours run by run, for who needs no whole image: `take` gets each run's place in the output and its
+/// pixels, which it may change; several threads call it.
+void compose_runs(const std::vector<ComposedLayer>& layers, const cv::Size& size,
+                  const std::function<void(const Run& run, cv::Vec4f* pixels)>& take);
 
 /// One layer alone, over nothing.
 Rgba compose_alone(const ComposedLayer& layer, const cv::Size& size);

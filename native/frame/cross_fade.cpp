@@ -49,16 +49,16 @@ class CrossFadedLayer final : public TravellingLayer {
 
   cv::Rect covered(const cv::Rect& tile) const override { return tile & bounds_; }
 
-  bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
+  const cv::Vec4f* draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
     Colours second, first_mean, second_mean;
     const bool any_first = sample(copies_.first.get(), run, needed, out, first_mean.data());
     const bool any_second = sample(copies_.second.get(), run, needed, second.data(), second_mean.data());
-    if (!any_first && !any_second) return false;
+    if (!any_first && !any_second) return nullptr;
     const auto other = static_cast<float>(copies_.second_share);
     const float one = 1 - other;
     for (int i = 0; i < run.count; ++i)
       if (needed[i]) out[i] = lively(one * out[i] + other * second[i], one * first_mean[i] + other * second_mean[i]);
-    return true;
+    return out;
   }
 
  private:

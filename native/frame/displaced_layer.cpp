@@ -24,12 +24,13 @@ class DisplacedLayer final : public TravellingLayer {
     return part.empty() || plate_.source.is_clear(where_sampled(part)) ? cv::Rect() : part;
   }
 
-  bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const override {
+  const cv::Vec4f* draw(const Run& run, const unsigned char* needed, cv::Vec4f* room) const override {
     const int column = run.x - static_cast<int>(plate_.origin.x), row = run.y - static_cast<int>(plate_.origin.y);
     if (!now_ && plate_.scale == plate_.output_scale && plate_.source.holds(column, row, run.count))
-      return plate_.source.copy(column, row, run.count, out);
+      return plate_.source.run_at(column, row, run.count);
+    if (plate_.source.is_clear(where_sampled(cv::Rect(run.x, run.y, run.count, 1)))) return nullptr;
     SampledRun at(plate_, now_.get(), run);
-    return plate_.source.sample(at.x, at.y, needed, run.count, out);
+    return plate_.source.sample(at.x, at.y, needed, run.count, room) ? room : nullptr;
   }
 
  private:

@@ -1,6 +1,7 @@
 #include "frame/frame_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -21,9 +22,12 @@ std::vector<MotionNumbers> motion_numbers(const FrameNumbers& frame) {
 
 cv::Rect box_of(const LayerSetup& layer) { return layer.plates ? layer.plates->box : layer.image.box; }
 
+// Sampling a grey picture overshoots.
+void take_alpha(cv::Vec4f& colour, const cv::Vec4f& grey) { colour[3] = std::clamp(grey[0], 0.0f, 1.0f); }
+
 void take_alpha(Rgba& colour, const Rgba& alpha) {
   auto from = alpha.begin();
-  for (cv::Vec4f& pixel : colour) pixel[3] = std::clamp((*from++)[0], 0.0f, 1.0f);  // sampling a grey picture overshoots
+  for (cv::Vec4f& pixel : colour) take_alpha(pixel, *from++);
 }
 
 }  // namespace
@@ -136,14 +140,16 @@ void FrameRenderer::render_for_screen(const FrameNumbers& now, ScreenWish wish, 
   const LayerMotions of_alpha = picture_.has_alpha ? motions_of(placed, nowhere, true) : LayerMotions();
   const std::vector<ComposedLayer> layers = composed(motions, seen);
   const std::vector<ComposedLayer> alpha = picture_.has_alpha ? composed(of_alpha, seen) : layers;
-  compose_tiles(layers, size_, [&](const cv::Rect& tile, Rgba pixels) {
-    if (picture_.has_alpha) take_alpha(pixels, compose_tile(alpha, tile));
-    for (int y = 0; y < tile.height; ++y) {
-      if (wish.coverage)
-        for (int x = 0; x < tile.width; ++x) pixels(y, x) = {pixels(y, x)[3], pixels(y, x)[3], pixels(y, x)[3], 1};
-      const size_t row = size_.height - 1 - (tile.y + y);
-      display_to_scene(pixels[y]->val, rgba + (row * size_.width + tile.x) * 4, tile.width);
+  compose_runs(layers, size_, [&](const Run& run, cv::Vec4f* pixels) {
+    if (picture_.has_alpha) {
+      std::array<cv::Vec4f, Run::longest> grey;
+      compose_run(alpha, run, grey.data());
+      for (int i = 0; i < run.count; ++i) take_alpha(pixels[i], grey[i]);
     }
+    if (wish.coverage)
+      for (int i = 0; i < run.count; ++i) pixels[i] = {pixels[i][3], pixels[i][3], pixels[i][3], 1};
+    const size_t row = size_.height - 1 - run.y;
+    display_to_screen(pixels->val, rgba + (row * size_.width + run.x) * 4, run.count);
   });
 }
 

@@ -74,8 +74,9 @@ class FrameRenderer {
   /// answer: any frame can be asked for alone, by several threads.
   Frame render(const FrameNumbers& now, const FrameNumbers& after, FrameWish wish) const;
 
-  /// The picture of a moment as Blender keeps one: scene-linear, premultiplied, bottom row first. `rgba`: four
-  /// numbers for each pixel of size(). Throws BadInput for a layer that is not there.
+  /// The picture of a moment as Blender keeps one: scene-linear, premultiplied, bottom row first, as exact as an eye
+  /// needs it (display_to_screen()). `rgba`: four numbers for each pixel of size(). Throws BadInput for a layer that is
+  /// not there.
   void render_for_screen(const FrameNumbers& now, ScreenWish wish, float* rgba) const;
 
   /// Takes points of the still picture (picture pixels) to where they are at a moment as part of one layer; where two

@@ -26,10 +26,8 @@ Field evaluate(int width, int height, const Row& row) {
 }
 
 void fill_row(float x0, float y0, float step, int count, float* x, float* y) {
-  for (int i = 0; i < count; ++i) {
-    x[i] = x0 + step * i;
-    y[i] = y0;
-  }
+  for (int i = 0; i < count; ++i) x[i] = x0 + step * static_cast<float>(i);
+  std::fill_n(y, count, y0);
 }
 
 class Mirrored final : public Displacement {

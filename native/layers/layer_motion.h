@@ -23,8 +23,9 @@ class LayerMotion {
   virtual cv::Rect covered(const cv::Rect& tile) const = 0;
 
   /// Premultiplied colour and coverage of a run. Where `needed` is 0 the result is not read, and need not be made.
-  /// Answers false where the whole run is transparent (`out` is then not filled).
-  virtual bool draw(const Run& run, const unsigned char* needed, cv::Vec4f* out) const = 0;
+  /// The answer is `room` (run.count pixels, and three behind them that may be read), or memory of the layer itself
+  /// where its pixels lie there as they are; null where the whole run is transparent.
+  virtual const cv::Vec4f* draw(const Run& run, const unsigned char* needed, cv::Vec4f* room) const = 0;
 
   /// Where the points seen at these places are one frame later, minus here, output pixels. `x`, `y` hold places in
   /// output pixels (centres at + 0.5) and are replaced by the flow.

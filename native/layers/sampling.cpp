@@ -11,6 +11,9 @@
 namespace stillwater {
 namespace {
 
+// Places that are passed by together where there is nothing around them.
+constexpr int looked_at = 16;
+
 void sample_plain(const float* origin, std::ptrdiff_t stride, const float* x, const float* y,
                   const unsigned char* needed, int count, float* out) {
   SamplingWeights w;
@@ -26,7 +29,7 @@ void sample_plain(const float* origin, std::ptrdiff_t stride, const float* x, co
       sum += w.y[row][i] * (w.x[0][i] * neighbour[0] + w.x[1][i] * neighbour[1] + w.x[2][i] * neighbour[2] +
                             w.x[3][i] * neighbour[3]);
     }
-    *reinterpret_cast<stillwater_v4u*>(out + 4 * i) = within_coverage(sum);
+    *reinterpret_cast<stillwater_v4u*>(out + 4 * i) = within_coverage(settled(sum));
   }
 }
 
@@ -53,27 +56,32 @@ void wrap(float* at, int count, int size) {
   for (int i = 0; i < count; ++i) at[i] -= period * std::floor(at[i] / period);
 }
 
+void range_plain(const float* at, int count, float* low, float* high) {
+  constexpr int lanes = 4;
+  stillwater_v4 smallest, largest, nothing;  // x - x is 0 for numbers only
+  for (int k = 0; k < lanes; ++k) {
+    const float number = at[std::min(k, count - 1)];
+    smallest[k] = largest[k] = number;
+    nothing[k] = number - number;
+  }
+  for (int i = std::min(lanes, count % lanes); i + lanes <= count; i += lanes) {
+    const stillwater_v4 here = *reinterpret_cast<const stillwater_v4u*>(at + i);
+    smallest = here < smallest ? here : smallest;
+    largest = here > largest ? here : largest;
+    nothing += here - here;
+  }
+  const float no_number = nothing[0] + nothing[1] + nothing[2] + nothing[3];
+  *low = std::min({smallest[0], smallest[1], smallest[2], smallest[3]}) + no_number;
+  *high = std::max({largest[0], largest[1], largest[2], largest[3]}) + no_number;
+}
+
 // Smallest and largest of at least one number; no numbers where one of them is none.
 struct Range {
   float low, high;
 
   Range(const float* at, int count) {
-    constexpr int lanes = 4;
-    stillwater_v4 smallest, largest, nothing;  // x - x is 0 for numbers only
-    for (int k = 0; k < lanes; ++k) {
-      const float number = at[std::min(k, count - 1)];
-      smallest[k] = largest[k] = number;
-      nothing[k] = number - number;
-    }
-    for (int i = std::min(lanes, count % lanes); i + lanes <= count; i += lanes) {
-      const stillwater_v4 here = *reinterpret_cast<const stillwater_v4u*>(at + i);
-      smallest = here < smallest ? here : smallest;
-      largest = here > largest ? here : largest;
-      nothing += here - here;
-    }
-    const float no_number = nothing[0] + nothing[1] + nothing[2] + nothing[3];
-    low = std::min({smallest[0], smallest[1], smallest[2], smallest[3]}) + no_number;
-    high = std::max({largest[0], largest[1], largest[2], largest[3]}) + no_number;
+    static const auto range = has_avx2() ? stillwater_range_avx2 : range_plain;
+    (count < 8 ? range_plain : range)(at, count, &low, &high);
   }
 
   bool within(int size) const { return low >= 0 && high <= static_cast<float>(size - 1); }
@@ -122,35 +130,47 @@ void Source::map_coverage() {
 bool Source::is_clear(const cv::Rect& area) const {
   if (empty()) return true;
   if (across_.wraps || down_.wraps) return false;
-  return is_clear_inside(area);
+  return covered_inside(area) == Covered::nowhere;
 }
 
 // For areas that do not reach over a side that wraps.
-bool Source::is_clear_inside(const cv::Rect& area) const {
+Source::Covered Source::covered_inside(const cv::Rect& area) const {
   const auto held = [](int at, int size) { return std::clamp(at + frame, 0, size - 1) / block; };
   const int left = held(area.x - 2, padded_.cols), right = held(area.x + area.width + 2, padded_.cols) + 1;
   const int top = held(area.y - 2, padded_.rows), bottom = held(area.y + area.height + 2, padded_.rows) + 1;
   const auto& sum = covered_blocks_;
-  return sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left) == 0;
+  const int covered = sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left);
+  if (covered == 0) return Covered::nowhere;
+  return covered == (bottom - top) * (right - left) ? Covered::everywhere : Covered::somewhere;
 }
 
-bool Source::copy(int x, int y, int count, cv::Vec4f* out) const {
-  if (empty() || is_clear_inside(cv::Rect(x, y, count, 1))) return false;
-  std::copy_n(at(x, y), count, out);
-  return true;
+const cv::Vec4f* Source::run_at(int x, int y, int count) const {
+  if (empty() || covered_inside(cv::Rect(x, y, count, 1)) == Covered::nowhere) return nullptr;
+  const cv::Vec4f *pixels = at(x, y), *below = at(x, std::min(y + 2, height_));
+  for (int i = 0; i < count; i += 4) __builtin_prefetch(below + i);  // as ask_for_rows_below() does
+  return pixels;
 }
 
 bool Source::sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const {
   if (empty()) return false;
+  const auto covered = [this](const Range& across, const Range& down) {
+    return covered_inside({cv::Point(static_cast<int>(across.low) - 1, static_cast<int>(down.low) - 1),
+                           cv::Point(static_cast<int>(across.high) + 1, static_cast<int>(down.high) + 1)});
+  };
   const Range across = bring_inside(x, count, width_, across_), down = bring_inside(y, count, height_, down_);
-  const cv::Point first(static_cast<int>(across.low) - 1, static_cast<int>(down.low) - 1);
-  const cv::Point last(static_cast<int>(across.high) + 1, static_cast<int>(down.high) + 1);
-  if (is_clear_inside(cv::Rect(first, last))) return false;
+  const Covered all = covered(across, down);
+  if (all == Covered::nowhere) return false;
   static const auto kernel = has_avx2() ? stillwater_sample_avx2 : sample_plain;
   const float* origin = at(0, 0)->val;
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(padded_.step1());
-  for (int i = 0; i < count; i += sampling_run)
-    kernel(origin, stride, x + i, y + i, needed + i, std::min(sampling_run, count - i), out[i].val);
+  const int step = all == Covered::everywhere ? sampling_run : looked_at;
+  for (int i = 0; i < count; i += step) {
+    const int some = std::min(step, count - i);
+    if (all == Covered::somewhere && covered(Range(x + i, some), Range(y + i, some)) == Covered::nowhere)
+      std::fill_n(out + i, some, cv::Vec4f());
+    else
+      kernel(origin, stride, x + i, y + i, needed + i, some, out[i].val);
+  }
   return true;
 }
 

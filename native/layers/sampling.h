@@ -34,15 +34,17 @@ class Source {
   bool is_clear(const cv::Rect& area) const;
 
   /// Colour at `count` places in index coordinates (0 = centre of the first pixel). Places whose `needed` byte is 0
-  /// are left alone. Answers false, with nothing filled in, where there is no coverage around any of them. Coverage comes out within 0 .. 1, and colour with it, so that the straight colour is kept.
-  /// `x` and `y` are used up.
+  /// are left alone. Answers false, with nothing filled in, where there is no coverage around any of them. Coverage
+  /// comes out within 0 .. 1, and colour with it, so that the straight colour is kept; where it is 1 but for the last
+  /// bits of the weights, it is 1. `x` and `y` are used up; they go on to a whole eight.
   bool sample(float* x, float* y, const unsigned char* needed, int count, cv::Vec4f* out) const;
 
   /// Whether `count` pixels from (x, y) on are all in the image.
   bool holds(int x, int y, int count) const { return x >= 0 && x + count <= width_ && y >= 0 && y < height_; }
 
-  /// The same as sample() for `count` pixels from (x, y) on, which it holds().
-  bool copy(int x, int y, int count, cv::Vec4f* out) const;
+  /// The same as sample() for `count` pixels from (x, y) on, which it holds(): where they lie in the image, with at
+  /// least 4 pixels behind them; null where there is no coverage.
+  const cv::Vec4f* run_at(int x, int y, int count) const;
 
   /// Pixel (x, y), at most 4 outside of the image: what sample() gives there.
   const cv::Vec4f* at(int x, int y) const { return &padded_(y + frame, x + frame); }
@@ -51,8 +53,10 @@ class Source {
   static constexpr int frame = 4;
   static constexpr int block = 8;
 
+  enum class Covered { nowhere, somewhere, everywhere };  ///< of blocks
+
   void map_coverage();
-  bool is_clear_inside(const cv::Rect& area) const;
+  Covered covered_inside(const cv::Rect& area) const;
 
   Rgba padded_;
   Beyond across_, down_;

@@ -31,9 +31,20 @@ static inline void catmull_rom_weights(const float* at, int count, int* whole, f
 // Rows further down are sampled next: a tile's rows are too short for the processor to see that coming.
 static inline void ask_for_rows_below(const float* pixel, ptrdiff_t stride) { __builtin_prefetch(pixel + 6 * stride); }
 
+static const float coverage_error = 1e-6f;  // of the weights' sum
+
+// Coverage as close to 1 as weights are exact is 1, so that what is opaque stays so.
+static inline stillwater_v4 settled(stillwater_v4 colour) {
+  const float beside = colour[3] - 1.0f;
+  if (beside <= coverage_error && beside >= -coverage_error) colour[3] = 1.0f;
+  return colour;
+}
+
+static inline int is_coverage(float coverage) { return coverage >= 0.0f && coverage <= 1.0f; }
+
 static inline stillwater_v4 within_coverage(stillwater_v4 colour) {
   const float coverage = colour[3];
-  if (__builtin_expect(coverage > 1.000001f, 0)) return colour * (1.0f / coverage);
-  if (__builtin_expect(coverage < 0.0f, 0)) return colour * 0.0f;
+  if (coverage > 1.0f) return colour * (1.0f / coverage);
+  if (coverage < 0.0f) return colour * 0.0f;
   return colour;
 }

@@ -71,17 +71,24 @@ float LocalWind::corner(int column, int line) const {
                   std::clamp(column - first_column_, 0, factors_.cols - 1));
 }
 
-void LocalWind::strengthen(int block, int j, float* values) const {
-  if (factors_.total() == 1) return;
-  const int line = floor_div(j, spacing_);
-  const float share = static_cast<float>(j - line * spacing_) / static_cast<float>(spacing_);
+void LocalWind::strengthen(int block, int blocks, int j, float factor, float* values) const {
+  const int count = blocks * block_side;
+  if (factors_.total() == 1) {
+    for (int i = 0; i < count; ++i) values[i] *= factor;
+    return;
+  }
+  const int spacing = spacing_, line = floor_div(j, spacing);
+  const float share = static_cast<float>(j - line * spacing) / static_cast<float>(spacing);
   const auto at = [&](int column) {
-    return corner(column, line) + share * (corner(column, line + 1) - corner(column, line));
+    const float above = corner(column, line);
+    return factor * (above + share * (corner(column, line + 1) - above));
   };
-  for (int first = 0; first < block_side; first += spacing_) {
-    const int column = (block * block_side + first) / spacing_;
-    const float left = at(column), step = (at(column + 1) - left) / static_cast<float>(spacing_);
-    for (int i = 0; i < spacing_; ++i) values[first + i] *= left + step * static_cast<float>(i);
+  int column = block * block_side / spacing;
+  float left = at(column);
+  for (int first = 0; first < count; first += spacing) {
+    const float right = at(++column), step = (right - left) / static_cast<float>(spacing);
+    for (int i = 0; i < spacing; ++i) values[first + i] *= left + step * static_cast<float>(i);
+    left = right;
   }
 }
 
@@ -118,33 +125,34 @@ void FilteredWater::keep_more(int last_line) {
   kept_.resize(rows);
   parallel_rows(rows - before, 8, [&](int first, int last) {
     for (int j = before + first; j < before + last; ++j)
-      for (int i = 0; i < kept_.cols; i += block_side)
-        fill_block(first_block_ + i / block_side, first_line_ + j, &kept_(j, i));
+      fill_blocks(first_line_ + j, first_block_, kept_.cols / block_side, kept_[j]);
   });
 }
 
-void FilteredWater::fill_block(int block, int j, float* values) const {
-  const double y = node_y(j), x = node_x(block * block_side);
-  const double slant = plane_.slant(y);
+void FilteredWater::fill_blocks(int j, int first, int blocks, float* values) const {
+  const double y = node_y(j), slant = plane_.slant(y);
   if (slant <= 0) {
-    std::fill_n(values, block_side, 0.0f);
+    std::fill_n(values, blocks * block_side, 0.0f);
     return;
   }
   const double samples = on_plane_.samples_per_metre;
   const double lambda = plane_.height() / slant;
   const double away = lambda * (plane_.cosine() + plane_.up_z() * y / plane_.focal());
   const double width = lambda / plane_.focal() * samples, length = std::max(1.0, 1 / slant) * width;
-  FootprintRow row;
-  row.x = x * width, row.step = width, row.y = away * samples;
-  row.across = footprint_deviation * width, row.along = footprint_deviation * length;
-  row.shear_step = plane_.cosine() / plane_.focal(), row.shear_first = row.shear_step * x;
-  tile_->filtered(row, values);
-
-  const float factor = static_cast<float>(factor_ * lattice_damping(row.along, on_plane_.side));
-  for (int i = 0; i < block_side; ++i) values[i] *= factor;
-  wind_->strengthen(block, j, values);
+  const FootprintLine footprint{.step = width,
+                                .y = away * samples,
+                                .across = footprint_deviation * width,
+                                .along = footprint_deviation * length,
+                                .shear_step = plane_.cosine() / plane_.focal()};
+  const Ripmap::Line line(*tile_, footprint);
+  const float factor = static_cast<float>(factor_ * lattice_damping(footprint.along, on_plane_.side));
+  for (int i = 0; i < blocks; ++i) {
+    const double x = node_x((first + i) * block_side);
+    line.filtered(x * width, footprint.shear_step * x, values + i * block_side);
+  }
+  wind_->strengthen(first, blocks, j, factor, values);
   if (bends_)
-    for (int i = 0; i < block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
+    for (int i = 0; i < blocks * block_side; ++i) values[i] = below(values[i], static_cast<float>(ceiling_));
 }
 
 water_nodes FilteredWater::kept_nodes() const {
@@ -161,7 +169,7 @@ float FilteredWater::node(int i, int j) const {
   const int column = i - first_block_ * block_side, line = j - first_line_;
   if (column >= 0 && column < kept_.cols && line >= 0 && line < kept_.rows) return kept_(line, column);
   std::array<float, block_side> values;
-  fill_block(block, j, values.data());
+  fill_blocks(j, block, 1, values.data());
   return values[i - block * block_side];
 }
 

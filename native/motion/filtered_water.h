@@ -28,8 +28,8 @@ class LocalWind {
   /// Covers the picture; elsewhere the nearest corner counts.
   LocalWind(const GustField& field, const Moment& moment, const WaterPlane& plane, cv::Size picture);
 
-  /// Multiplies the values of a block's nodes in line j.
-  void strengthen(int block, int j, float* values) const;
+  /// Multiplies the values of the nodes of some blocks in line j, by `factor` too.
+  void strengthen(int block, int blocks, int j, float factor, float* values) const;
   float largest() const { return largest_; }
 
  private:
@@ -68,7 +68,7 @@ class FilteredWater {
   float at(Point level, float* down = nullptr) const;
 
  private:
-  void fill_block(int block, int j, float* values) const;
+  void fill_blocks(int j, int first, int blocks, float* values) const;
   float node(int i, int j) const;
 
   WaterPlane plane_;

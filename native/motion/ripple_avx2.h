@@ -3,8 +3,6 @@
 /// ripple_kernel.h compiled for AVX2.
 struct raised_water;
 struct mirror_water;
-void weighted_rows_avx2(const float* const* rows, const float* near, const float* far, int taps, int count, float* sum);
-void spline_at_avx2(const float* coefficients, float x, float step, int count, float* values);
 void raised_map_avx2(const struct raised_water* water, float* px, float* py, int count, int* left_out);
 void raised_unmap_avx2(const struct raised_water* water, float* px, float* py, int count, int* left_out);
 void raised_line_avx2(const struct raised_water* water, const float* heights, float y, int count, float* to_y);

@@ -1,36 +1,11 @@
 #pragma once
 
-/// The inner loops of the water in the picture, in plain C that compilers turn into vectors; included by ripmap.cpp
-/// and ripple.cpp (SSE4.2) and ripple_avx2.cpp.
-
-/// sum[i] = total over t of near[t] rows[t][i] + far[t] rows[t][i + 1].
-static inline void weighted_rows(const float* const* rows, const float* near, const float* far, int taps, int count,
-                                 float* sum) {
-  for (int i = 0; i < count; ++i) sum[i] = near[0] * rows[0][i] + far[0] * rows[0][i + 1];
-  for (int t = 1; t < taps; ++t) {
-    const float *row = rows[t], a = near[t], b = far[t];
-    for (int i = 0; i < count; ++i) sum[i] += a * row[i] + b * row[i + 1];
-  }
-}
+/// The inner loops of the water in the picture, in plain C that compilers turn into vectors; included by
+/// water_displacement.cpp (SSE4.2) and ripple_avx2.cpp.
 
 /// Points that a kernel below takes at most: results stand in arrays of its own until all are known, so that compilers
 /// see that no result is read as a coefficient.
 enum { water_batch = 64 };
-
-/// The cubic B-spline with these coefficients at x + i step, 1 <= x; the coefficients reach 2 beyond the last place.
-static inline void spline_at(const float* coefficients, float x, float step, int count, float* values) {
-  float result[water_batch];
-  for (int i = 0; i < count; ++i) {
-    const float place = x + step * (float)i;
-    const int whole = (int)place;
-    const float f = place - (float)whole, g = 1 - f;
-    const float f2 = f * f, g2 = g * g;
-    result[i] = (g2 * g * coefficients[whole - 1] + (4 - 3 * f2 * (1 + g)) * coefficients[whole] +
-                 (4 - 3 * g2 * (1 + f)) * coefficients[whole + 1] + f2 * f * coefficients[whole + 2]) *
-                (1.0f / 6);
-  }
-  for (int i = 0; i < count; ++i) values[i] = result[i];
-}
 
 /// Values on nodes one pixel apart, the first one at (x, y) in level coordinates.
 struct water_nodes {
@@ -170,5 +145,17 @@ static inline void mirror_move(const struct mirror_water* water, int rounds, flo
     px[i] += dx * w.along_x - dy * w.along_y;
     py[i] += dx * w.along_y + dy * w.along_x;
     left_out[i] = out[i];
+  }
+}
+
+/// MirrorWater::unmap of places that are nodes of level water, in the line y (level coordinates); `right` and `away`
+/// are their values.
+static inline void mirror_row(const struct mirror_water* water, const float* right, const float* away, float y,
+                              int count, float* px, float* py) {
+  const float under = y - water->horizon, below = under > 0 ? under : 0;
+  const float scale = water->pixels * below / (below + water->fade);
+  for (int i = 0; i < count; ++i) {
+    px[i] -= scale * right[i];
+    py[i] += scale * away[i];
   }
 }

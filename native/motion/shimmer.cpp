@@ -35,14 +35,21 @@ Weights weights(float f) {
   return weights;
 }
 
-// The nodes at a moment, px.
-struct Nodes {
-  std::vector<float> x, y;
-};
+// As ShimmerKernel has them.
+std::vector<float> continued(const std::vector<float>& x, const std::vector<float>& y) {
+  std::vector<float> nodes;
+  nodes.reserve(2 * (side + 2) * shimmer_stride);
+  for (int row = 0; row < side + 2; ++row)
+    for (int column = 0; column < shimmer_stride; ++column) {
+      const int at = (row & (side - 1)) * side + (column & (side - 1));
+      nodes.push_back(x[at]), nodes.push_back(y[at]);
+    }
+  return nodes;
+}
 
 class LeavesAtMoment : public Displacement {
  public:
-  LeavesAtMoment(const Segment& armature, float cell, float longest, Nodes nodes)
+  LeavesAtMoment(const Segment& armature, float cell, float longest, std::vector<float> nodes)
       : root_x_(static_cast<float>(armature.from.x)),
         root_y_(static_cast<float>(armature.from.y)),
         per_cell_(1 / cell),
@@ -55,8 +62,9 @@ class LeavesAtMoment : public Displacement {
   float reach() const override { return longest_; }
 
   void unmap(float* x, float* y, int count) const override {
-    static const auto points = has_avx2() ? shimmer_unmap_avx2 : shimmer_unmap_points;
-    points({root_x_, root_y_, per_cell_, per_length_, nodes_.x.data(), nodes_.y.data()}, x, y, count);
+    static const auto unmap_run = has_avx2() ? shimmer_unmap_avx2 : shimmer_unmap_run;
+    const ShimmerKernel kernel{root_x_, root_y_, per_cell_, per_length_, nodes_.data()};
+    for (int i = 0; i < count; i += shimmer_run) unmap_run(&kernel, x + i, y + i, std::min(shimmer_run, count - i));
   }
 
   // Solves q + swing(q) = p.
@@ -86,11 +94,11 @@ class LeavesAtMoment : public Displacement {
     const int column = static_cast<int>(cell_x), row = static_cast<int>(cell_y);
     Swing sum{0, 0}, slope_x{0, 0}, slope_y{0, 0};
     for (int j = 0; j < 3; ++j) {
-      const int line = ((row + j - 1) & (side - 1)) * side;
+      const int line = ((row + j - 1) & (side - 1)) * shimmer_stride;
       Swing value{0, 0}, slope{0, 0};
       for (int i = 0; i < 3; ++i) {
         const int at = line + ((column + i - 1) & (side - 1));
-        const Swing node{nodes_.x[at], nodes_.y[at]};
+        const Swing node{nodes_[2 * at], nodes_[2 * at + 1]};
         value.x += wx.w[i] * node.x;
         value.y += wx.w[i] * node.y;
         slope.x += wx.slope[i] * node.x;
@@ -113,16 +121,16 @@ class LeavesAtMoment : public Displacement {
   }
 
   float root_x_, root_y_, per_cell_, per_length_, longest_;
-  Nodes nodes_;
+  std::vector<float> nodes_;  // as ShimmerKernel has them
 };
 
 }  // namespace
 
-Shimmer::Shimmer(const Segment& armature, std::uint64_t seed) : armature_(armature), leaves_(side * side) {
+Shimmer::Shimmer(const Segment& armature, std::uint64_t seed) : armature_(armature) {
   for (int i = 0; i < side * side; ++i) {
-    leaves_[i] = {static_cast<float>(slowest + (fastest - slowest) * random_uniform(seed, {i, 0, 3})),
-                  static_cast<float>(random_uniform(seed, {i, 1, 3})),
-                  static_cast<float>(random_uniform(seed, {i, 2, 3}))};
+    frequency_.push_back(static_cast<float>(slowest + (fastest - slowest) * random_uniform(seed, {i, 0, 3})));
+    phase_x_.push_back(static_cast<float>(random_uniform(seed, {i, 1, 3})));
+    phase_y_.push_back(static_cast<float>(random_uniform(seed, {i, 2, 3})));
   }
 }
 
@@ -131,21 +139,16 @@ std::unique_ptr<const Displacement> Shimmer::at(const Moment& moment, double shi
   const double cell = std::max(cell_share * length, 1.0);
   const double longest = largest_swing * cell * shimmer * local_speed / (local_speed + half_wind);
   const double loop = moment.loop_frames / moment.fps;
-  const auto turns = [&](double frequency) {
-    if (moment.loop_frames == 0) return frequency * moment.seconds();
-    return std::max(1.0, std::nearbyint(frequency * loop)) * (frames_into_loop(moment) / moment.loop_frames);
+  const float size = static_cast<float>(longest / std::numbers::sqrt2);
+  static const auto swing = has_avx2() ? shimmer_swing_avx2 : shimmer_swing;
+  const double time = moment.loop_frames == 0 ? moment.seconds() : frames_into_loop(moment) / moment.loop_frames;
+  const auto swung = [&](const std::vector<float>& phase) {
+    std::vector<float> nodes(phase.size());
+    swing(frequency_.data(), loop, time, phase.data(), size, static_cast<int>(phase.size()), nodes.data());
+    return nodes;
   };
-  const auto swing = [&](double turn) {
-    return static_cast<float>(longest / std::numbers::sqrt2 * std::cos(2 * std::numbers::pi * turn));
-  };
-  Nodes nodes{std::vector<float>(leaves_.size()), std::vector<float>(leaves_.size())};
-  for (std::size_t i = 0; i < leaves_.size(); ++i) {
-    const Leaf& leaf = leaves_[i];
-    const double turn = turns(leaf.frequency), rest = turn - std::floor(turn);
-    nodes.x[i] = swing(rest + leaf.phase_x), nodes.y[i] = swing(rest + leaf.phase_y);
-  }
   return std::make_unique<LeavesAtMoment>(armature_, static_cast<float>(cell), static_cast<float>(longest),
-                                          std::move(nodes));
+                                          continued(swung(phase_x_), swung(phase_y_)));
 }
 
 }  // namespace stillwater

@@ -33,11 +33,8 @@ class Shimmer {
   std::unique_ptr<const Displacement> at(const Moment& moment, double shimmer, double local_speed) const;
 
  private:
-  struct Leaf {
-    float frequency, phase_x, phase_y;  // Hz, turns
-  };
   Segment armature_;
-  std::vector<Leaf> leaves_;
+  std::vector<float> frequency_, phase_x_, phase_y_;  ///< of each node, Hz and turns
 };
 
 }  // namespace stillwater

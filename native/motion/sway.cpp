@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <mutex>
 #include <numbers>
+#include <vector>
 
 #include "core/check.h"
 #include "core/cpu.h"
@@ -117,20 +120,57 @@ class Bending : public Displacement {
 
 }  // namespace
 
+/// The modes of the turbulence and what the oscillator makes of them: the same at all moments of one wind.
+struct SwaySpectrum {
+  double speed, frequency, period;
+  int modes;
+  std::vector<double> velocity;                ///< of modes 1, 2, ...
+  std::vector<std::complex<double>> response;
+  double expected = 0;                         ///< mean square of the motion, over many series
+
+  SwaySpectrum(double wind_speed, const Oscillator& oscillator, const TurbulenceClock& clock)
+      : speed(wind_speed), frequency(oscillator.frequency), period(clock.period), modes(clock.modes) {
+    for (int k = 1; k <= modes; ++k) {
+      const double f = k / period, power = wind_spectrum(f, speed) / period;
+      velocity.push_back(std::sqrt(power));
+      response.push_back(oscillator.response(f));
+      expected += power * std::norm(response.back());
+    }
+    // Of a long series, also where a loop's is short.
+    if (period != turbulence_period) expected = expected_square(oscillator, speed);
+  }
+
+  bool is_of(double wind_speed, double own_frequency, const TurbulenceClock& clock) const {
+    return speed == wind_speed && frequency == own_frequency && period == clock.period && modes == clock.modes;
+  }
+};
+
 struct SwayMotion::State {
   Sway sway;
   cv::Size picture;
   TurbulenceNoise noise;
   GustField gusts;
   Shimmer shimmer;
+
+  std::mutex mutex{};
+  std::shared_ptr<const SwaySpectrum> kept{};  // of the moment before; under the mutex
+
+  std::shared_ptr<const SwaySpectrum> spectrum(double speed, double frequency, const TurbulenceClock& clock);
 };
+
+std::shared_ptr<const SwaySpectrum> SwayMotion::State::spectrum(double speed, double frequency,
+                                                                const TurbulenceClock& clock) {
+  const std::lock_guard lock(mutex);
+  if (!kept || !kept->is_of(speed, frequency, clock))
+    kept = std::make_shared<const SwaySpectrum>(speed, Oscillator{frequency, sway.mass, sway.damping}, clock);
+  return kept;
+}
 
 SwayMotion::SwayMotion(const Sway& sway, const Wind& wind, cv::Size picture) {
   check_sway(sway);
   check_wind(wind);
-  state_ = std::make_shared<State>(State{sway, picture, TurbulenceNoise(sway.seed),
-                                         GustField(wind.gust_size, wind.seed, picture),
-                                         Shimmer(sway.armature, sway.seed)});
+  state_.reset(new State{sway, picture, TurbulenceNoise(sway.seed), GustField(wind.gust_size, wind.seed, picture),
+                         Shimmer(sway.armature, sway.seed)});
 }
 
 SwayMotion::~SwayMotion() = default;
@@ -153,27 +193,21 @@ TipMotion SwayMotion::tip(const Moment& moment, const Sway& now) const {
   // The turbulence, mode by mode.
   const Oscillator oscillator{now.frequency, state_->sway.mass, state_->sway.damping};
   const TurbulenceClock clock = turbulence_clock(moment);
+  const auto spectrum = state_->spectrum(speed, now.frequency, clock);
   const std::complex<double> step = std::polar(1.0, 2 * std::numbers::pi * clock.turn);
   std::complex<double> phase = 1;
-  double expected = 0;
   for (int k = 1; k <= clock.modes; ++k) {
     phase *= step;
-    const double f = k / clock.period;
-    const double power = wind_spectrum(f, speed) / clock.period;
-    const double velocity = std::sqrt(power);
-    const std::complex<double> response = oscillator.response(f);
-    expected += power * std::norm(response);
-    across.add(state_->noise, k, phase, velocity, response);
-    depth.add(state_->noise, k, phase, velocity, response);
+    across.add(state_->noise, k, phase, spectrum->velocity[k - 1], spectrum->response[k - 1]);
+    depth.add(state_->noise, k, phase, spectrum->velocity[k - 1], spectrum->response[k - 1]);
   }
 
-  // Its expected strength: of a long series, also where a loop's is short. The gusts.
-  if (clock.period != turbulence_period) expected = expected_square(oscillator, speed);
+  // Its expected strength, and the gusts.
   const double gust = state_->gusts.factor(middle(armature), moment);
   const double lean = lean_share * speed * state_->gusts.response(middle(armature), moment, oscillator);
   const double scale = force_of_wind(now, length(armature));
   const auto turbulent = [&](const Driven& driven) {
-    return driven.square > 0 ? scale * gust * std::sqrt(expected * driven.share.square() / driven.square) : 0;
+    return driven.square > 0 ? scale * gust * std::sqrt(spectrum->expected * driven.share.square() / driven.square) : 0;
   };
   return {turbulent(across) * across.motion + scale * across.share.along * lean,
           turbulent(depth) * depth.motion + scale * depth.share.along * lean,

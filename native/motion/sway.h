@@ -68,7 +68,7 @@ class SwayMotion {
 
  private:
   struct State;
-  std::shared_ptr<const State> state_;
+  std::shared_ptr<State> state_;
 };
 
 }  // namespace stillwater

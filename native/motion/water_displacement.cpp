@@ -318,4 +318,26 @@ void MirrorWater::map(float* x, float* y, int count) const { move(mirror_rounds,
 
 void MirrorWater::unmap(float* x, float* y, int count) const { move(1, -1, x, y, count); }
 
+bool MirrorWater::are_kept_nodes(float x0, float y0, float step, int count) const {
+  const water_nodes& kept = water_.right;
+  const float column = x0 - water_.centre_x - kept.x, line = y0 - water_.centre_y - kept.y;
+  const bool level = water_.along_x == 1 && water_.along_y == 0;
+  return level && step == 1 && column == std::floor(column) && line == std::floor(line) && column >= 0 && line >= 0 &&
+         column + static_cast<float>(count - 1) <= kept.last_column && line <= kept.last_line;
+}
+
+void MirrorWater::unmap_row(float x0, float y0, float step, int count, float* x, float* y) const {
+  if (at_rest() || !are_kept_nodes(x0, y0, step, count)) {
+    Displacement::unmap_row(x0, y0, step, count, x, y);
+    return;
+  }
+  for (int i = 0; i < count; ++i) x[i] = x0 + static_cast<float>(i);
+  std::fill_n(y, count, y0);
+  const water_nodes& kept = water_.right;
+  const float level_x = x0 - water_.centre_x, level_y = y0 - water_.centre_y;
+  const ptrdiff_t line = static_cast<ptrdiff_t>(level_y - kept.y), column = static_cast<ptrdiff_t>(level_x - kept.x);
+  const ptrdiff_t first = line * kept.stride + column;
+  mirror_row(&water_, water_.right.values + first, water_.away.values + first, level_y, count, x, y);
+}
+
 }  // namespace stillwater

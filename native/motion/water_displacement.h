@@ -62,8 +62,11 @@ class MirrorWater final : public Displacement {
   float reach() const override { return reach_; }
   void map(float* x, float* y, int count) const override;
   void unmap(float* x, float* y, int count) const override;
+  /// Under a level horizon the pixels of a picture are nodes: read, not looked up.
+  void unmap_row(float x0, float y0, float step, int count, float* x, float* y) const override;
 
  private:
+  bool are_kept_nodes(float x0, float y0, float step, int count) const;
   Point displaced(Point level) const;
   void move(int rounds, float sign, float* x, float* y, int count) const;
 

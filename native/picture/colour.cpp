@@ -26,6 +26,10 @@ void display_to_scene(const float* rgba_in, float* rgba_out, std::size_t pixels)
   has_avx2() ? display_to_scene_avx2(rgba_in, rgba_out, pixels) : display_to_scene_kernel(rgba_in, rgba_out, pixels);
 }
 
+void display_to_screen(const float* rgba_in, float* rgba_out, std::size_t pixels) {
+  has_avx2() ? display_to_screen_avx2(rgba_in, rgba_out, pixels) : display_to_scene_kernel(rgba_in, rgba_out, pixels);
+}
+
 void scene_to_display(const float* rgba_in, float* rgba_out, std::size_t pixels) {
   has_avx2() ? scene_to_display_avx2(rgba_in, rgba_out, pixels) : scene_to_display_kernel(rgba_in, rgba_out, pixels);
 }

@@ -54,10 +54,10 @@ static inline float cube_root(float x) {
 // ((x + 0.055) / 1.055)^2.4 = (y y^(-1/5))^3 above the straight piece.
 static inline float linear_of_srgb(float x) {
   const float size = fabsf(x);
-  const float y = (size + 0.055f) / 1.055f;
+  const float y = (size + 0.055f) * (1.0f / 1.055f);
   const float w = y * inverse_fifth_root(y);
   const float curved = w * w * w;
-  const float straight = size / 12.92f;
+  const float straight = size * (1.0f / 12.92f);
   const float result = size <= 0.04045f ? straight : curved;
   return copysignf(size <= largest_float ? result : size, x);
 }

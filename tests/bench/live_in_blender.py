@@ -15,13 +15,14 @@ import bpy
 
 PACKAGE = "bl_ext.user_default.stillwater"
 LAKE = Path(__file__).resolve().parents[2] / "blend_samples" / "lake" / "recipe.json"
-LONGEST = 864  # px: 540 high
+SIZE = (864, 540)  # px: what of it fits into 960 x 540
 FRAMES = 40
 
 
 def opened(extension, folder: str):
     """The lake in a saved file, on a plane, prepared."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    extension.preferences.of(bpy.context).preview_size = SIZE[0]
     bpy.ops.wm.save_as_mainfile(filepath=str(Path(folder, "lake.blend")))
     bpy.ops.stillwater.load_recipe(filepath=str(LAKE))
     scene = bpy.context.scene
@@ -38,6 +39,8 @@ def opened(extension, folder: str):
     stage = extension.play.show.stage_of(scene, picture)
     if stage.live is None:
         sys.exit(f"the lake is not live: {stage.problem}")
+    if stage.live.size != SIZE:
+        sys.exit(f"the lake is {stage.live.size}, not {SIZE}")
     return scene, picture, stage
 
 
@@ -54,7 +57,6 @@ def main() -> None:
     bpy.ops.extensions.package_install_files(repo="user_default", filepath=sys.argv[1], enable_on_install=True)
     extension = importlib.import_module(PACKAGE)
     extension.play.show.seen = True
-    extension.play.show.longest = lambda: LONGEST
     extension.play.handlers._playing = lambda: True
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         scene, picture, stage = opened(extension, folder)

@@ -322,9 +322,12 @@ def shown() -> dict:
 
 
 def test_the_panel_offers_the_roles_that_there_are(scene, picture, layers):
-    assert shown()["operators"].count("stillwater.draw_stroke") == 2  # Oak's and the horizon
+    picture.active_layer = 2  # the last one, which needs no matte
+    assert shown()["operators"].count("stillwater.draw_stroke") == 2  # Boat's and the horizon
     picture.active_layer = 0
-    assert shown()["operators"].count("stillwater.draw_stroke") == 1
+    picture.layers[0].matte.form, picture.layers[0].fill.method = "scribbles", "none"
+    assert shown()["operators"].count("stillwater.draw_stroke") == 3  # foreground, background, the horizon
+    picture.active_layer = 1
     bpy.ops.stillwater.draw_stroke(role="horizon")
     said = shown()
     assert "stillwater.stop_drawing" in said["operators"] and "stillwater.delete_strokes" not in said["operators"]

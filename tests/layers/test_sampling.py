@@ -72,6 +72,24 @@ def test_coverage_stays_within_0_and_1_and_straight_colour_is_kept():
     assert np.allclose(moved[covered][:, :3] / alpha[covered][:, None], (0.2, 0.4, 0.6), atol=1e-4)
 
 
+def test_what_is_opaque_stays_so_to_the_bit():
+    map = RNG.normal(0, 3, (37, 53, 2)).astype(np.float32)
+    assert (engine.displace(OPAQUE, map)[..., 3] == 1).all()
+
+
+@pytest.mark.parametrize("dx, dy", [(0.3, 0.6), (-9.4, 2.5)])
+def test_a_few_islands_are_sampled_like_anything_else(dx, dy):
+    """Where a run of places holds nothing, nothing is sampled."""
+    islands = np.zeros((40, 200, 4), np.float32)
+    for y, x in ((3, 5), (17, 90), (21, 91), (38, 198)):
+        islands[y : y + 2, x : x + 3] = RNG.random((2, 3, 4))[: 40 - y, : 200 - x]
+    islands[..., :3] *= islands[..., 3:]
+    alpha = catmull_rom(islands, dx, dy)[..., 3]
+    sampled = engine.displace(islands, constant_map(dx, dy, (40, 200)))
+    assert 10 < (alpha > 1e-3).sum() < 300
+    np.testing.assert_allclose(sampled[..., 3], np.clip(alpha, 0, 1), atol=2e-5)  # places are float32
+
+
 def test_places_that_are_no_numbers_sample_inside():
     for bad in (np.nan, np.inf, -np.inf):
         map = RNG.normal(0, 2, (37, 53, 2)).astype(np.float32)

@@ -142,6 +142,17 @@ def test_a_tilted_horizon_is_the_level_case_turned():
         assert np.abs(answer - expected).max() < 0.02
 
 
+@pytest.mark.parametrize("horizon", [HORIZON, ((0, 60.3), (320, 60.3)), ((0, 20), (320, 110)), ((320, 60), (0, 60))])
+@pytest.mark.parametrize("size", [(320, 200), (321, 199)])
+def test_a_row_of_pixels_is_sampled_where_its_points_are(horizon, size):
+    for region in (None, (100, 90, 64, 40)):
+        water = displacement(horizon, size, 5, region=region, mode="normal", **CALM)
+        points = centres(size)
+        rows = water.displacement_map(size)
+        assert np.abs(rows).max() > 0.5
+        np.testing.assert_allclose(rows, water.unmap(points) - points, atol=1e-4)
+
+
 def test_no_point_goes_further_than_the_reach():
     for given in ({}, {"amplitude": 3.0}, {"mode": "normal"}, {"amplitude": 900.0}):
         for horizon in (HORIZON, ((0, -300), (320, -250))):

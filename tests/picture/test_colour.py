@@ -109,6 +109,17 @@ def test_pixels_are_unpremultiplied_for_the_curve():
     np.testing.assert_allclose(engine.scene_to_display(scene), display, rtol=3e-6, atol=1e-7)
 
 
+def test_for_a_screen_the_curve_is_within_a_fortieth_of_a_level():
+    straight = np.concatenate([np.linspace(-0.5, 2, 300_000), np.geomspace(1e-6, 1e4, 99_999), [np.nan]], dtype=np.float32)
+    for alpha in (1, 0.25, 0):
+        display = np.dstack([straight * (alpha or 1)] * 3 + [np.full_like(straight, alpha)])
+        screen = engine.display_to_screen(display)
+        shown = linear_to_srgb(screen[..., :3] / (alpha or 1))
+        exact = linear_to_srgb(engine.display_to_scene(display)[..., :3] / (alpha or 1))
+        np.testing.assert_allclose(shown, exact, rtol=1e-5, atol=1 / 40 / 255)
+        np.testing.assert_array_equal(screen[..., 3], display[..., 3])
+
+
 def test_light_without_cover_goes_through_the_curve_as_it_is():
     pixel = np.array([[[0.5, 0.25, 0.125, 0]]], np.float32)
     np.testing.assert_allclose(engine.display_to_scene(pixel)[0, 0, :3], exact_linear(pixel[0, 0, :3]), rtol=1e-6)

@@ -1,0 +1,168 @@
+#include "layers/uncover.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "core/check.h"
+#include "core/parallel.h"
+#include "layers/foreground.h"
+#include "layers/push_pull.h"
+
+namespace stillwater {
+namespace {
+
+// A hole is filled from what lies at least so far from the matte, px: mattes end a little inside of what they cut out.
+constexpr int fringe = 3;
+// What a fringe still says where nothing better is near.
+constexpr float fringe_share = 1e-3f;
+// What is seen of the background, where it is not painted, goes over into the filling between these shares of coverage.
+constexpr float still_seen = 0.5f, no_more_seen = 0.9f;
+
+// 1 at most so many pixels away from the true pixels of a mask, else 0.
+Plane grown(const cv::Mat& mask, double pixels) {
+  Plane distance, near;
+  cv::distanceTransform(~mask, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::Mat(distance <= pixels).convertTo(near, CV_32F, 1 / 255.0);
+  return near;
+}
+
+// The box of what is above 0, grown so that a filling finds its surroundings.
+cv::Rect surroundings(const Plane& region) {
+  const cv::Rect box = cv::boundingRect(region > 0);
+  const int margin = std::max(32, std::max(box.width, box.height) / 4);
+  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+         cv::Rect(0, 0, region.cols, region.rows);
+}
+
+bool any(const cv::Mat& region) { return cv::countNonZero(region) > 0; }
+
+void split_remainder(const Rgba& picture, const Plane& matte, Uncovered& colours) {
+  parallel_pixels(picture.size(), [&](int y, int x) {
+    const float a = matte(y, x);
+    const cv::Vec4f& p = picture(y, x);
+    cv::Vec4f &front = colours.front(y, x), &back = colours.back(y, x);
+    if (a >= 1) front = p;
+    if (a <= 0) back = p;
+    const cv::Vec4f share = (p - a * front - (1 - a) * back) * (1 / (a * a + (1 - a) * (1 - a)));
+    if (a < 1) front += a * share;
+    if (a > 0) back += (1 - a) * share;
+  });
+}
+
+// What the matte alone says of both: the picture itself where it has no soft edge.
+Uncovered mixed_from(const Rgba& picture, const Plane& matte, const cv::Rect& box, Progress& progress) {
+  Uncovered colours{picture.clone(), picture.clone(), box};
+  if (!any((matte > 0) & (matte < 1))) return colours;
+  const auto [front, back] = foreground_and_background(picture, matte, {}, progress);
+  colours.front = front;
+  colours.back = back;
+  split_remainder(picture, matte, colours);
+  return colours;
+}
+
+// Smoothly, from where the background is seen pure.
+Rgba smooth_filling(const Rgba& seen, const Plane& matte) {
+  Plane wide;
+  cv::dilate(matte, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * fringe + 1, 2 * fringe + 1)));
+  Rgba known(seen.size());
+  parallel_pixels(seen.size(), [&](int y, int x) {
+    const float share = std::max(purity(wide(y, x)), fringe_share * purity(matte(y, x)));
+    const cv::Vec4f& pixel = seen(y, x);
+    known(y, x) = {pixel[0] * share, pixel[1] * share, pixel[2] * share, share};
+  });
+  const bool nothing = std::all_of(known.begin(), known.end(), [](const cv::Vec4f& pixel) { return pixel[3] <= 0; });
+  if (nothing) return seen.clone();
+  fill_by_push_pull(known);
+  return known;
+}
+
+// Whether a whole patch lies somewhere in `source` and off what is closed.
+bool any_patch(const Plane& source, const Plane& closed, int patch) {
+  cv::Mat centres;
+  cv::erode((source >= 0.5f) & (closed < 0.5f), centres, cv::Mat::ones(patch, patch, CV_8U), {-1, -1}, 1,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
+  return any(centres);
+}
+
+// Where patches may come from: what the search allows, and of that what no layer hides or has hidden, where there is
+// any. Nothing where the search allows all, and yet no patch is whole.
+std::optional<Plane> source_of(const InpaintParameters& search, const Plane& matte, const Plane& hidden, const Plane& hole) {
+  const Plane allowed = search.source ? *search.source : Plane::ones(hole.size());
+  const Plane closed = grown(hole >= 0.5f, search.grow);
+  Plane never_hidden = allowed.clone();
+  never_hidden.setTo(0, (hidden > 0) | (matte > 0));
+  if (any_patch(never_hidden, closed, search.patch)) return never_hidden;
+  if (search.source || any_patch(allowed, closed, search.patch)) return allowed;
+  return std::nullopt;
+}
+
+// The largest odd side, at most `wanted`, that fits into both sides of a picture.
+int fitting_patch(int wanted, const cv::Size& size) {
+  const int side = std::min(size.width, size.height);
+  return std::min(wanted, side - (side % 2 == 0));
+}
+
+void touch_up(const TouchUp& place, const Plane& hole, const InpaintParameters& search, Rgba& filling, const Progress& progress) {
+  Plane region = place.region.clone();
+  region.setTo(0, hole < 0.5f);
+  if (!any(region >= 0.5f)) return;
+  InpaintParameters again = search;
+  again.radius = place.radius;
+  again.seed = place.seed;
+  again.source->setTo(0, grown(hole >= 0.5f, search.grow) >= 0.5f);
+  filling = inpaint(filling, region, again, progress);
+}
+
+// `seen`: the picture with the background's own colours at soft edges, of the picture's size.
+Rgba exemplar_filling(const Rgba& seen, const Plane& matte, const Plane& hidden, const ExemplarFill& fill, const Progress& progress) {
+  const Plane hole = grown(matte > still_seen, fringe);
+  InpaintParameters search = fill.search;
+  search.patch = fitting_patch(search.patch, seen.size());
+  if (search.patch < 3 || !any(hole < 0.5f)) return smooth_filling(seen, matte);
+  search.source = source_of(search, matte, hidden, hole);
+  if (!search.source) return smooth_filling(seen, matte);
+  Rgba filling = inpaint(seen, hole, search, progress);
+  for (const TouchUp& place : fill.touch_ups) touch_up(place, hole, search, filling, progress);
+  return filling;
+}
+
+Rgba painted_filling(const Rgba& painted, const cv::Rect& box) {
+  Rgba filling = painted(box).clone();
+  for (cv::Vec4f& pixel : filling) pixel[3] = 1;
+  return filling;
+}
+
+// In `box`. `seen`: the background as the matte alone says it.
+Rgba filling_in(const cv::Rect& box, const Rgba& left, const Plane& matte, const Plane& hidden, const Rgba& seen,
+                const Filling& filling, const Progress& progress) {
+  if (const Rgba* painted = std::get_if<Rgba>(&filling)) return painted_filling(*painted, box);
+  if (const ExemplarFill* exemplar = std::get_if<ExemplarFill>(&filling)) {
+    Rgba whole = left.clone();
+    seen.copyTo(whole(box));
+    return exemplar_filling(whole, matte, hidden, *exemplar, progress)(box);
+  }
+  return std::get<Fill>(filling) == Fill::push_pull ? smooth_filling(seen, matte(box)) : left(box).clone();
+}
+
+}  // namespace
+
+Uncovered uncover(const Rgba& left, const Plane& matte, const Plane& hidden, const Filling& filling, Progress progress) {
+  check::same_size("matte", matte, "the picture", left);
+  check::same_size("hidden", hidden, "the picture", left);
+  const cv::Rect box = surroundings(matte);
+  const Rgba picture = left(box);
+  const Plane part = matte(box);
+  Uncovered colours = mixed_from(picture, part, box, progress);
+  const Rgba filled = filling_in(box, left, matte, hidden, colours.back, filling, progress);
+  const bool painted = std::holds_alternative<Rgba>(filling);
+  parallel_pixels(box.size(), [&](int y, int x) {
+    const float gone = std::clamp((part(y, x) - still_seen) / (no_more_seen - still_seen), 0.0f, 1.0f);
+    const float share = painted ? 1.0f : gone;
+    cv::Vec4f& back = colours.back(y, x);
+    back = share >= 1 ? filled(y, x) : cv::Vec4f(back + share * (filled(y, x) - back));
+  });
+  split_remainder(picture, part, colours);
+  return colours;
+}
+
+}  // namespace stillwater
