@@ -23,10 +23,12 @@ SWAY, WATERLINE, HORIZON = (roles.by_key(key) for key in ("sway_line", "waterlin
 
 @pytest.fixture
 def layers(scene, picture, extension):
-    """Oak sways, Boat bobs; Oak is active."""
+    """Oak sways, Boat bobs; Oak is active. Nothing of them is drawn but their motions."""
     lay_out(scene, picture)
     for name, motion in (("Oak", "sway"), ("Boat", "bob")):
         extension.properties.arrange.add_layer(picture, name).motion.type = motion
+    for layer in picture.layers:
+        layer.matte.form, layer.matte.file, layer.fill.method = "file", "//matte.png", "none"
     picture.active_layer = 1
     return picture.layers
 
