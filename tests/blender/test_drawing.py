@@ -359,7 +359,8 @@ def test_the_panel_in_edit_mode_changes_roles(picture, layers, selected):
 def icons() -> dict[str, str]:
     """What the buttons of the roles show."""
     (panel,) = [cls for cls in registered("view_3d") if cls.bl_label == "Strokes"]
-    return {text: icon for text, icon in show(panel).icons if text}
+    lines = {SWAY.name, WATERLINE.name, HORIZON.name}
+    return {text: icon for text, icon in show(panel).icons if text in lines}
 
 
 def test_a_role_that_was_drawn_or_typed_has_a_check_mark(scene, picture, layers):
