@@ -12,6 +12,8 @@
 Others use drawn(), replaced(), cut_out(), lay_down(), copy_roles() and remove_roles().
 """
 
+from functools import cache
+
 import bpy
 from bpy.app.handlers import persistent
 
@@ -31,9 +33,11 @@ def drawn(scene, picture):
     Asking throws ValueError with a sentence where strokes can't be read.
     """
 
+    seen = cache(lambda: read.projection_of(picture))
+
     def geometry(layer_id: str, key: str):
         role = roles.by_key(key)
-        return role.geometry(read.strokes(scene, picture, layer_id, role))
+        return role.geometry(read.strokes(scene, picture, layer_id, role, seen))
 
     return geometry
 

@@ -36,6 +36,7 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     layer_id = layer.id if layer is not None else ""
     part = gp_layers.ensure(picture, layer_id, role)
     part.hide = part.lock = False
+    gp_layers.fade(picture, layer_id if role.of else "")
     gp_layers.ensure_key(part, role, scene.frame_current if role.keyed else min(scene.frame_current, scene.frame_start))
     holder.data.layers.active = part
     holder.active_material_index = gp_layers.material(holder.data, role)
@@ -70,6 +71,9 @@ def finish(scene) -> None:
 def leave(scene) -> None:
     """Says that nothing is being drawn any more."""
     if scene.stillwater.drawing.role:
+        picture, _ = drawn(scene)
+        if picture is not None:
+            gp_layers.fade(picture)
         scene.stillwater.drawing.role, scene.stillwater.drawing.new_layer = "", False
         look_after()
 

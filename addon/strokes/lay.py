@@ -23,6 +23,8 @@ def down(scene, picture, layer_id: str, said: dict[str, list]) -> None:
             role = roles.by_key(key)
             outline = [{"points": strokes}] if isinstance(strokes[0], list) else strokes
             _draw(scene, picture, layer_id, role, outline)
+    drawing = scene.stillwater.drawing
+    gp_layers.fade(picture, drawing.layer_id if drawing.role else "")
 
 
 def _draw(scene, picture, layer_id: str, role: roles.Role, strokes: list[dict]) -> None:

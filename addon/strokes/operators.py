@@ -86,6 +86,8 @@ class STILLWATER_OT_draw_stroke(OfRole, bpy.types.Operator):
         if layer is not None:
             roles.begin(layer, role)
         draw_mode.enter(context, picture, layer, role)
+        if role.of.startswith("fill."):  # that is where it is seen
+            context.scene.stillwater_live.view = "behind"
         return {"FINISHED"}
 
 

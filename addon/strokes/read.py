@@ -4,6 +4,8 @@ A hidden object or grease-pencil layer does not count, nor do the object's modif
 their key on reads every key; any other reads the drawing that the scene's first frame shows.
 """
 
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -18,17 +20,17 @@ TOLERANCE = 0.01  # px that a polyline may leave its curve by where that saves p
 RADIUS, SEED = "stillwater_radius", "stillwater_seed"  # attributes of a curve: a touch-up's own
 
 
-def strokes(scene, picture, layer_id: str, role: Role) -> list[Stroke]:
+def strokes(scene, picture, layer_id: str, role: Role, seen: Callable | None = None) -> list[Stroke]:
     """All strokes of one role, in the order in which they lie upon each other.
 
-    Throws ValueError with a sentence where the picture has no plane, or a stroke is out of its camera's sight.
+    `seen`: gives projection_of(picture), where that is known already. Throws ValueError with a sentence where the picture has no plane, or a stroke is out of its camera's sight.
     """
     found = []
     for part, keys in _shown(scene, picture, layer_id, role):
-        seen = _projection(picture)
+        projected = seen() if seen is not None else projection_of(picture)
         try:
             for key in keys:
-                found += _in_drawing(picture.strokes, part, key, seen)
+                found += _in_drawing(picture.strokes, part, key, projected)
         except ValueError as error:
             raise ValueError(rpt_("{name}: a stroke {error}").format(name=part.name, error=rpt_(str(error)))) from error
     return found
@@ -58,7 +60,8 @@ def _is_visible(part) -> bool:
     return part is None
 
 
-def _projection(picture) -> projection.Projection:
+def projection_of(picture) -> projection.Projection:
+    """From the scene onto the picture. Throws ValueError where there is no plane, or it is seen from its edge."""
     pixels = np.array(plane.pixels_to_world(picture))
     try:
         return projection.onto_picture(pixels, _eye(picture.camera))

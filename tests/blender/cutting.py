@@ -11,10 +11,10 @@ from pixels import PACKAGE, oiio
 strokes = importlib.import_module(f"{PACKAGE}.strokes")
 
 
-def truth(width: int, height: int) -> np.ndarray:
-    """The disc's matte, 0 .. 1."""
+def truth(width: int, height: int, share: float = 1) -> np.ndarray:
+    """The disc's matte, 0 .. 1; of one of another radius by its `share`."""
     y, x = np.mgrid[:height, :width] + 0.5
-    return np.clip(height / 4 + 0.5 - np.hypot(x - width / 2, y - height / 2), 0, 1).astype(np.float32)
+    return np.clip(share * height / 4 + 0.5 - np.hypot(x - width / 2, y - height / 2), 0, 1).astype(np.float32)
 
 
 def paint(path: Path, size: tuple[int, int]) -> Path:

@@ -147,18 +147,9 @@ def test_layers_without_a_drawing_to_go_to_say_what_did_not_come_along(extension
     assert sentence.startswith("boat: its strokes did not come along: Bare: has no drawing for strokes")
 
 
-@pytest.mark.parametrize("place, value, sentence", [
-    (("fill", "touch_up", 0, "seed"), 2**31 - 1, "layers[0].fill.touch_up[0].seed: 2147483648 is above"),
-    (("fill", "source", "value"), 2**40, None),
-])  # fmt: skip
-def test_what_blender_can_t_hold_is_refused(extension, scene, tmp_path, place, value, sentence):
+def test_a_value_that_blender_can_t_hold_is_refused(extension, scene, tmp_path):
     recipe = recipes.cut_out()
-    part = recipe["layers"][0]
-    for step in place[:-1]:
-        part = part[step]
-    part[place[-1]] = value
-    path = recipes.write(tmp_path, recipe)
-    with pytest.raises(RuntimeError) as caught:
-        bpy.ops.stillwater.load_recipe(filepath=str(path))
-    assert sentence is None or sentence in str(caught.value)
+    recipe["layers"][0]["fill"]["touch_up"][0]["seed"] = 2**31 - 1
+    with pytest.raises(RuntimeError, match="layers.0..fill.touch_up.0..seed: 2147483648 is above"):
+        bpy.ops.stillwater.load_recipe(filepath=str(recipes.write(tmp_path, recipe)))
     assert len(bpy.context.scene.stillwater.pictures) == 0

@@ -1,11 +1,17 @@
 """From strokes on the picture to the matte over it: at once as a sketch, then as it will be; and what is said meanwhile."""
 
+import os
+import signal
+import time
+
+import bpy
 import cutting
 import numpy as np
 import pytest
 import stage
 from layered import said
 from panels import draw, registered
+from pixels import oiio, read_frame
 
 
 @pytest.fixture
@@ -120,9 +126,6 @@ def test_what_is_behind_the_active_layer_is_shown(extension, scene, disc):
 
 def test_a_bake_cuts_out_what_was_drawn(extension, scene, disc, tmp_path):
     """In the worker, by grease pencil alone."""
-    import bpy
-    from pixels import read_frame
-
     cutting.scribble(scene, disc)
     scene.frame_end = 1
     assert bpy.ops.stillwater.bake() == {"FINISHED"}
@@ -140,3 +143,84 @@ def test_touch_ups_reach_the_recipe(extension, scene, disc):
     assert (first["radius"], first["seed"], second["radius"], second["seed"]) == (90, 5, None, 0)
     np.testing.assert_allclose(first["stroke"]["points"], line["points"], atol=0.01)
     assert first["stroke"]["width"] == pytest.approx(12, abs=0.01)
+
+
+def write_gray(path, plane) -> str:
+    image = oiio.ImageBuf(oiio.ImageSpec(plane.shape[1], plane.shape[0], 1, "uint8"))
+    image.set_pixels(oiio.ROI(), plane[..., None].astype(np.float32))
+    assert image.write(str(path)), image.geterror()
+    return str(path)
+
+
+def trimap() -> np.ndarray:
+    """Sure within the disc and well outside, gray between."""
+    inner, outer = cutting.truth(320, 180, 0.9), cutting.truth(320, 180, 1.15)
+    return np.where(inner == 1, 1.0, np.where(outer == 0, 0.0, 0.5))
+
+
+def test_a_trimap_is_solved_as_well(extension, scene, disc, tmp_path):
+    matte = disc.layers[0].matte
+    matte.form, matte.trimap, matte.method = "trimap", write_gray(tmp_path / "trimap.png", trimap()), "bayesian"
+    scene.frame_set(2)
+    cutting.wait_for_sketch(extension, scene, disc)
+    stage.wait(extension)
+    assert error_of(stage_of(extension, scene, disc).live.coverage("Disc"), disc) < 0.01
+
+
+WRONG = {
+    "none.png": (None, "there is no such file"),
+    "small.png": (np.full((20, 20), 0.5), "20 x 20 is not the size of the picture, 320 x 180"),
+    "unknown.png": (np.full((180, 320), 0.5), "Disc, matte"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_trimap_that_is_no_use_is_a_sentence(extension, scene, disc, tmp_path, name):
+    plane, sentence = WRONG[name]
+    path = str(tmp_path / name) if plane is None else write_gray(tmp_path / name, plane)
+    disc.layers[0].matte.form, disc.layers[0].matte.trimap = "trimap", path
+    scene.frame_set(2)
+    stage.wait(extension)
+    now = stage_of(extension, scene, disc)
+    assert sentence in now.problem and now.sketch is None
+    live = next(cls for cls in registered("view_3d") if cls.bl_label == "Live")
+    assert sentence in " ".join(draw(live).texts)
+    disc.layers[0].matte.trimap = write_gray(tmp_path / "right.png", trimap())  # and is forgotten once it is right
+    scene.frame_set(1)
+    stage.wait(extension)
+    assert now.problem == ""
+
+
+def test_a_killed_server_is_said_and_the_next_stroke_starts_another(extension, scene, disc):
+    cutting.scribble(scene, disc)
+    process = extension.play.server._worker._process
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait(10)
+    stage.wait(extension)
+    now = stage_of(extension, scene, disc)
+    assert now.sketch is None and "was ended by SIGKILL" in now.problem
+    cutting.lay(scene, disc, disc.layers[0], background=[cutting.across(disc, 1.9)])
+    cutting.wait_for_sketch(extension, scene, disc)
+    stage.wait(extension)
+    assert now.problem == ""
+
+
+def test_a_sketch_is_there_within_half_a_second(extension, scene, tmp_path, monkeypatch):
+    """Of a picture of 1280 x 720, the process being there: the best of a few strokes, as the machine may be busy."""
+    monkeypatch.setattr(extension.play.show, "seen", True)
+    picture = cutting.open_picture(scene, tmp_path, (1280, 720))
+    cutting.scribble(scene, picture)
+    cutting.wait_for_sketch(extension, scene, picture)
+    taken = []
+    for i in range(4):
+        began = time.monotonic()
+        cutting.lay(scene, picture, picture.layers[0], background=[cutting.across(picture, 1.7 + 0.06 * i)])
+        now = stage_of(extension, scene, picture)
+        before = now.sketch.number
+        while now.sketch is None or now.sketch.number == before:
+            extension.play.server.tick()
+            assert time.monotonic() < began + 20, now.problem
+            time.sleep(0.005)
+        taken.append(time.monotonic() - began)
+    extension.play.server.end()
+    assert min(taken) < 0.5, taken

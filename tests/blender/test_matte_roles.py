@@ -215,3 +215,34 @@ def test_the_menus_offer_new_layers(extension, scene):
     bpy.types.STILLWATER_MT_layer_from_outline.draw(SimpleNamespace(layout=menu), bpy.context)
     assert {"Tree", "Lake", "Boat", "Clouds", "Still"} <= set(menu.texts)
     assert {made.motion for made in menu.made} == {"sway", "ripple", "bob", "drift", "still"}
+
+
+def test_strokes_that_cut_out_are_faint_unless_their_layer_is_drawn_on(scene, picture, layers):
+    for layer in layers:
+        layer.matte.form = "scribbles"
+        for key in ("foreground", "background"):
+            gp_layers.ensure(picture, layer.id, roles.by_key(key))
+    layers[0].motion.type = "sway"
+    line = gp_layers.ensure(picture, layers[0].id, roles.by_key("sway_line"))
+
+    def opaque() -> set[str]:
+        return {part.name for part in picture.strokes.data.layers if part.opacity == 1} - {line.name}
+
+    bpy.ops.stillwater.draw_stroke(role="foreground")
+    assert opaque() == {"Oak · Foreground", "Oak · Background"}
+    bpy.ops.stillwater.draw_stroke(role="background", layer="sky")
+    assert opaque() == {"sky · Foreground", "sky · Background"}
+    bpy.ops.stillwater.draw_stroke(role="sway_line")
+    assert opaque() == set()
+    bpy.ops.stillwater.draw_stroke(role="background")
+    bpy.ops.object.mode_set(mode="OBJECT")  # left by Blender's own way
+    draw_mode.tick()
+    assert opaque() == set() and line.opacity == 1
+
+
+def test_touching_up_shows_what_is_behind(scene, picture, layers):
+    layers[0].matte.form = "scribbles"
+    bpy.ops.stillwater.draw_stroke(role="foreground")
+    assert scene.stillwater_live.view == "picture"
+    bpy.ops.stillwater.draw_stroke(role="touch_up")
+    assert scene.stillwater_live.view == "behind"

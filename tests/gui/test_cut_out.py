@@ -2,11 +2,13 @@
 
 import sys
 import time
+from pathlib import Path
 
 import bpy
 import numpy as np
-from test_first_picture import SAMPLE, on_screen, part, picture
+from seen import on_screen, open_sidebar, part, picture
 
+SAMPLE = Path(__file__).resolve().parents[2] / "blend_samples" / "tree"
 CROWN, MEADOW = (600, 220, 700, 300), (150, 690, 400, 780)  # left, top, right, bottom
 ON_IT = [[(560, 230), (700, 260), (780, 380), (860, 300)], [(808, 590), (806, 500)]]
 BESIDE = [[(300, 90), (300, 520), (420, 640)], [(1150, 120), (1150, 560), (1000, 660)], [(560, 20), (1000, 20)]]
@@ -31,10 +33,10 @@ def strokes(window, role: str, lines: list):
 
 
 def test_strokes_cut_the_tree_out(window):
+    yield from open_sidebar(window)
     call(window, "open_picture", filepath=str(SAMPLE / "picture.png"))
     call(window, "add_layer", motion="sway")
-    yield from window.key("N", at=window.box("VIEW_3D").middle)
-    yield from window.click("Stillwater", inside=window.box("VIEW_3D", "UI"), turned=True)
+    yield from window.settle()
     yield from strokes(window, "foreground", ON_IT)
     assert picture().layers[0].matte.form == "scribbles"
     yield from window.see("Press Background and draw beside", window.box("VIEW_3D", "UI"))

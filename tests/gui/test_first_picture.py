@@ -67,12 +67,16 @@ def test_its_sway_line_is_drawn_with_the_mouse(window):
     yield from window.point_at("stillwater.draw_stroke", window.places("Sway Line", sidebar))
     yield from window.press()
     yield from window.until(lambda: bpy.context.mode == "PAINT_GREASE_PENCIL", 10, "no draw mode")
+    shelf = lambda: window.area("VIEW_3D").spaces.active.show_region_asset_shelf  # noqa: E731
+    yield 0.5
+    yield from window.until(lambda: not shelf(), 10, "brushes lie over the picture")
     yield from window.screenshot("06-draw-mode")
     yield from window.drag([on_screen(window, *place) for place in SWAY_LINE])
     yield from window.screenshot("07-drawn")
     assert not window.places("Draw its sway line, from where", sidebar)
     yield from window.click("Done", lowest=True)
     yield from window.until(lambda: bpy.context.mode == "OBJECT", 10, "still in draw mode")
+    assert shelf()
 
 
 def test_the_play_button_shows_it_in_motion_without_a_bake(window):
