@@ -110,7 +110,7 @@ Rgba inpaint(const Rgba& picture, const Plane& hole, const InpaintParameters& pa
   const Margins margins(picture.size(), parameters.patch);
   std::vector<InpaintLevel> levels =
       inpaint_levels(margins.widened(picture), margins.widened(open), margins.widened(allowed_pixels(open, parameters)),
-                     parameters.patch, parameters.radius.value_or(0));
+                     parameters.patch, parameters.radius.value_or(0), [&] { progress.at(0); });
   InpaintLevel& finest = levels[0];
   check_sources(finest, parameters);
   const CoarseToFineParameters how{.patch = parameters.patch, .seed = parameters.seed};

@@ -225,6 +225,7 @@ def with_nan(array, y, x):
         ({"patch": 8}, r"patch: 8 is not odd \(px\)"),
         ({"patch": 1}, r"patch: 1 is not between 3 and 63 \(px\)"),
         ({"patch": 65}, r"patch: 65 is not between 3 and 63 \(px\)"),
+        ({"seed": -1}, "seed: -1 is not between 0 and 9223372036854775807"),
         ({"grow": -1}, r"grow: -1 is not between 0 and 1000 \(px\)"),
         ({"picture": with_nan(PICTURE, 3, 4)}, r"picture: pixel \(4, 3\) is not a finite number"),
         ({"hole": with_nan(HOLE, 3, 4)}, r"hole: pixel \(4, 3\) is not a finite number"),

@@ -34,7 +34,7 @@ def inpaint(
         hole: height x width, bool or 0..1; filled where it is at least one half.
         patch: side of the patches that are compared, px, odd, 3..63. About the size of the texture's details.
         radius: how far a patch may come from, px; None = from anywhere.
-        seed: of the random search.
+        seed: of the random search, 0 or more.
         source: height x width, bool or 0..1; patches come from where it is at least one half. None = from anywhere.
         grow: patches come from no nearer to the hole's edge than this, px, 0..1000. Never changes pixels of the result.
         progress: is called with a phase's name and the share of the whole that is done; answers False to cancel.
@@ -53,7 +53,7 @@ def inpaint(
     given = _with_alpha(picture)
     filled = _straight(
         _stillwater.inpaint(
-            _premultiplied(given), np.asarray(hole, np.float32), patch=patch, radius=radius, seed=seed, grow=grow,
+            _premultiplied(given), np.asarray(hole, np.float32), patch=patch, radius=radius, seed=_checked(seed), grow=grow,
             source=None if source is None else np.asarray(source, np.float32), progress=progress,
         )
     )  # fmt: skip
@@ -96,7 +96,7 @@ def make_cyclic(
     given = _with_alpha(picture)
     whole = _straight(
         _stillwater.make_cyclic_by_exemplars(
-            _premultiplied(given), along_x=along_x, along_y=along_y, patch=patch, seed=seed, progress=progress,
+            _premultiplied(given), along_x=along_x, along_y=along_y, patch=patch, seed=_checked(seed), progress=progress,
             known=None if known is None else np.asarray(known, np.float32),
         )
     )  # fmt: skip
@@ -104,6 +104,12 @@ def make_cyclic(
     height, width = given.shape[:2]
     whole[:height, :width] = np.where(kept, given, whole[:height, :width])
     return whole
+
+
+def _checked(seed: int) -> int:
+    if not 0 <= seed < 2**63:
+        raise _stillwater.BadInput(f"seed: {seed} is not between 0 and {2**63 - 1}")
+    return seed
 
 
 def _with_alpha(picture: ArrayLike) -> NDArray[np.float32]:
