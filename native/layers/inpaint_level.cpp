@@ -62,8 +62,8 @@ bool usable(const InpaintLevel& level, int patch) {
 
 }  // namespace
 
-std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch, double radius,
-                                         const std::function<void()>& still_wanted) {
+std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch,
+                                         double radius, const std::function<void()>& still_wanted) {
   std::vector<InpaintLevel> levels(1);
   levels[0] = {picture.clone(), {}, hole, allowed, patch_centres(allowed, patch), radius};
   while (2 * half_width(levels.back().hole) > patches_across * patch) {
