@@ -10,7 +10,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "layers/blend_seams.h"
-#include "layers/coarse_to_fine.h"
+#include "layers/fill_coarse_to_fine.h"
 #include "layers/inpaint_level.h"
 #include "layers/shift_map.h"
 #include "patches/patch_distance.h"

@@ -14,9 +14,10 @@ from .. import _stillwater as engine
 from ..recipe import parse
 from . import preview
 from .cache import FOLDER, Cache, Prepared
-from .prepare import check_view, layer_images
+from .prepare import check_view
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
+from .stack import layer_images
 
 
 class Live:
@@ -171,6 +172,12 @@ class Live:
             x, y, wide, high = self._preview.facts["colour"][index]
             whole[y : y + high, x : x + wide] = part[..., 3]
         return whole
+
+    def quick_matte(self, key: str) -> NDArray[np.uint8] | None:
+        """The matte that `serve` answered with this key, picture height x width, 0 .. 255, top row first; None where the
+        cache has it no more."""
+        kept = self._cache.find(key) if self._cache else None
+        return None if kept is None else kept.arrays["matte"]
 
     def _numbers(self, frame: int) -> tuple:
         if self._timeline is None:

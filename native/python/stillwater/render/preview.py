@@ -15,11 +15,12 @@ from ..recipe.parts import Keys
 from ..recipe.stochastic import Bob, Drift, Sway
 from .cache import Cache, Prepared
 from .errors import Failed
-from .events import Event, Preparing, Ready, Warn
+from .events import Event, Preparing, Ready
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
-from .prepare import Sources, cut, digests_of, filled_otherwise, layer_images
+from .prepare import Sources, digests_of
 from .resolve import Timeline
+from .stack import forget_stack, layer_images, layers_of
 
 PARTS = ("colour", "alpha")
 
@@ -62,7 +63,6 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
     """
     sources = Sources(document, cache)
     key = _key(sources.key, longest)
-    yield from map(Warn, filled_otherwise(document.recipe))
     if cache.find(key) is None:
         with cache.lock(key, beat) as lock:
 
@@ -71,7 +71,7 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
                 lock.beat()
 
             if cache.find(key) is None:
-                stack = yield from _stack(document, cache, sources, still_there)
+                stack = yield from layers_of(sources, cache, still_there)
                 yield Preparing(0.9, "making the layers small")
                 small = _reduced(stack, sources.size, longest, still_there)
                 cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
@@ -85,7 +85,7 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
 
 def forget(document: Document, cache: Cache) -> None:
     """Removes the layers of a recipe as it is now, at every size. Throws RecipeError, OSError."""
-    cache.forget(Sources(document, cache).key)
+    forget_stack(Sources(document, cache), cache)
 
 
 def _key(stack: str, longest: int) -> str:
@@ -99,21 +99,6 @@ def _located(document: Document, sources: Sources):
 def _file(path: Path, digest: str) -> list:
     state = path.stat()
     return [state.st_size, state.st_mtime_ns, digest]
-
-
-def _stack(document: Document, cache: Cache, sources: Sources, beat: Callable) -> Generator[Event, None, Prepared]:
-    """The layers as they were cut; a bake has the same."""
-    stack = cache.find(sources.key)
-    if stack is not None:
-        return stack
-    with cache.lock(sources.key, beat):
-        stack = cache.find(sources.key)
-        if stack is None:
-            images = yield from sources.read()
-            yield from map(Warn, images.warnings)
-            stack = yield from cut(images, document.recipe, beat)
-            stack = cache.store(sources.key, stack)
-    return stack
 
 
 def _make_endless(document: Document, cache: Cache, key: str, stack: str, beat: Callable) -> Iterator[Event]:

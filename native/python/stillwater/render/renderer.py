@@ -5,8 +5,8 @@ import numpy as np
 from .. import _stillwater as engine
 from ..recipe.stochastic import Bob, Ripple, Still, Sway
 from .cache import Prepared
-from .prepare import layer_images
 from .resolve import DriftNow, MomentNow, Timeline
+from .stack import layer_images
 
 _KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: engine.Drift}
 
