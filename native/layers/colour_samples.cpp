@@ -90,6 +90,7 @@ class Search {
     Pair best{pairs_(y, x)[0], pairs_(y, x)[1]};
     float least = costs_(y, x);
     const auto consider = [&](const Pair& pair) {
+      if (pair.front == best.front && pair.back == best.back && least < std::numeric_limits<float>::infinity()) return;
       const float cost = cost_of(here, pair, least);
       if (cost < least) least = cost, best = pair;
     };

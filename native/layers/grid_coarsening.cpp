@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/parallel.h"
 #include "layers/grid_operator.h"
 
 namespace stillwater {
@@ -126,7 +125,7 @@ GridCoarsening coarsened(const SparseGrid& fine, int spacing) {
 
 void restrict_to(const GridCoarsening& way, const SparseGrid& fine_grid, const Basis* basis,
                  const std::vector<double>& fine, std::vector<double>& coarse) {
-  in_alternate_stripes(fine_grid.height, coarse_rows * way.spacing, false, [&](int top, int bottom) {
+  in_alternate_stripes(fine_grid, coarse_rows * way.spacing, fine_grid.nodes(), false, [&](int top, int bottom) {
     each_node(fine_grid, top, bottom, [&](int node, int x, int y) {
       const size_t entry = static_cast<size_t>(fine_grid.entry(node));
       std::array<double, 4> values;
@@ -142,7 +141,7 @@ void restrict_to(const GridCoarsening& way, const SparseGrid& fine_grid, const B
 
 void interpolate_from(const GridCoarsening& way, const SparseGrid& fine_grid, const Basis* basis,
                       const std::vector<double>& coarse, std::vector<double>& fine) {
-  parallel_rows(fine_grid.height, 16, [&](int top, int bottom) {
+  in_stripes(fine_grid, 16, fine_grid.nodes(), [&](int top, int bottom) {
     each_node(fine_grid, top, bottom, [&](int node, int x, int y) {
       const size_t entry = static_cast<size_t>(fine_grid.entry(node));
       const Corners corner = corners(way, node, x, y);
@@ -163,7 +162,8 @@ std::vector<double> galerkin(const GridCoarsening& way, const SparseGrid& fine_g
   std::vector<double> coarse(static_cast<size_t>(way.grid.nodes()) * 400, 0.0);
   std::vector<int> node_of_entry(static_cast<size_t>(way.grid.entries()), -1);
   for (int node = 0; node < way.grid.nodes(); ++node) node_of_entry[way.grid.entry(node)] = node;
-  in_alternate_stripes(fine_grid.height, coarse_rows * way.spacing, false, [&](int top, int bottom) {
+  const int numbers = fine_grid.nodes() * 16;
+  in_alternate_stripes(fine_grid, coarse_rows * way.spacing, numbers, false, [&](int top, int bottom) {
     RowTimesP<B> row;
     each_node(fine_grid, top, bottom, [&](int node, int x, int y) {
       row_times_p<B>(fine_grid, basis, coefficients + static_cast<size_t>(node) * 25 * B * B, node, x, y, way.spacing,

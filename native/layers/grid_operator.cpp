@@ -9,6 +9,7 @@ namespace stillwater {
 namespace {
 
 constexpr int stripe = 16;
+constexpr int few = 6000;
 
 // A node's numbers, and one block of the operator.
 template <int B>
@@ -37,20 +38,30 @@ Numbers<B> rest_at(const Coefficient* blocks, const std::array<int, 5>& around, 
 
 }  // namespace
 
-void in_alternate_stripes(int rows, int height, bool backwards, const std::function<void(int, int)>& work) {
-  const int stripes = (rows + height - 1) / height;
-  for (const int parity : {backwards ? 1 : 0, backwards ? 0 : 1})
-    parallel_rows((stripes + 1 - parity) / 2, 1, [&](int first, int last) {
+void in_stripes(const SparseGrid& grid, int height, int numbers, const std::function<void(int, int)>& work) {
+  if (numbers < few) work(0, grid.height);
+  else parallel_rows(grid.height, height, work);
+}
+
+void in_alternate_stripes(const SparseGrid& grid, int height, int numbers, bool backwards,
+                          const std::function<void(int, int)>& work) {
+  const int stripes = (grid.height + height - 1) / height;
+  for (const int parity : {backwards ? 1 : 0, backwards ? 0 : 1}) {
+    const int count = (stripes + 1 - parity) / 2;
+    const auto some = [&](int first, int last) {
       for (int i = first; i < last; ++i) {
         const int top = (2 * i + parity) * height;
-        work(top, std::min(rows, top + height));
+        work(top, std::min(grid.height, top + height));
       }
-    });
+    };
+    if (numbers < few) some(0, count);
+    else parallel_rows(count, 1, some);
+  }
 }
 
 template <int B>
 void GridOperator<B>::relax(const std::vector<double>& right, std::vector<double>& solution, bool backwards) const {
-  in_alternate_stripes(grid->height, stripe, backwards, [&](int top, int bottom) {
+  in_alternate_stripes(*grid, stripe, grid->nodes() * B * B, backwards, [&](int top, int bottom) {
     const int first = grid->row[top], count = grid->row[bottom] - first;
     for (int i = 0; i < count; ++i) {
       const size_t node = static_cast<size_t>(backwards ? first + count - 1 - i : first + i);
@@ -67,7 +78,7 @@ void GridOperator<B>::relax(const std::vector<double>& right, std::vector<double
 template <int B>
 void GridOperator<B>::find_residual(const std::vector<double>& right, const std::vector<double>& solution,
                                     std::vector<double>& residual) const {
-  parallel_rows(grid->height, stripe, [&](int top, int bottom) {
+  in_stripes(*grid, stripe, grid->nodes() * B * B, [&](int top, int bottom) {
     for (int node = grid->row[top]; node < grid->row[bottom]; ++node) {
       const size_t entry = static_cast<size_t>(grid->entry(node)) * B;
       Eigen::Map<Numbers<B>> own(&residual[entry]);

@@ -30,8 +30,13 @@ struct GridOperator {
 extern template struct GridOperator<1>;
 extern template struct GridOperator<4>;
 
-/// Calls `work(first_row, last_row)` for each stripe of `height` rows, the even stripes at once, then the odd ones, or
-/// the other way round: a stripe may touch the nearest rows of its neighbours.
-void in_alternate_stripes(int rows, int height, bool backwards, const std::function<void(int first, int last)>& work);
+/// Calls `work(first_row, last_row)` for stripes of `height` rows of a grid. Where there is little to do, by the count
+/// of numbers, one thread does it all: to wake another takes longer.
+void in_stripes(const SparseGrid& grid, int height, int numbers, const std::function<void(int first, int last)>& work);
+
+/// The same, the even stripes at once, then the odd ones, or the other way round: a stripe may touch the nearest rows
+/// of its neighbours.
+void in_alternate_stripes(const SparseGrid& grid, int height, int numbers, bool backwards,
+                          const std::function<void(int first, int last)>& work);
 
 }  // namespace stillwater
