@@ -72,9 +72,14 @@ def make_unique(item, siblings) -> None:
     base = re.sub(r"\.\d{3,}$", "", name)
     while name in taken:
         count += 1
-        name = f"{base}.{count:03d}"
+        name = _within(base, f".{count:03d}", item.bl_rna.properties["name"].length_max)
     if name != item.name:
         item.name = name
+
+
+def _within(base: str, end: str, most: int) -> str:
+    """Both, the first cut so that they take at most so many bytes: more than that Blender would cut off the end."""
+    return base.encode()[: most - len(end)].decode(errors="ignore") + end
 
 
 def rename_layer(layer) -> None:

@@ -231,6 +231,13 @@ def test_names_are_unique(extension, scene, picture):
     assert extension.properties.arrange.add_picture(scene, "Lake").name == "Lake.001"
 
 
+def test_names_as_long_as_they_may_be_are_unique_too(extension, scene, picture):
+    arrange = extension.properties.arrange
+    names = [arrange.add_picture(scene, "Ü" * 80).name for _ in range(3)]
+    names += [extension.properties.arrange.add_layer(picture, "a" * 300).name for _ in range(3)]
+    assert len(set(names)) == 6 and names[1].endswith(".001") and names[5].endswith(".002")
+
+
 def test_keys_go_with_their_picture(extension, scene, picture, written):
     arrange = extension.properties.arrange
     second = arrange.add_picture(scene, "Second")
