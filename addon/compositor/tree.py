@@ -82,7 +82,7 @@ def claim(scene, picture):
         _own_groups(own, picture.id)
     nodes = nodes_of(scene, picture.id)
     picture.id, picture.tree = names.new_id(), None
-    names.make_unique(picture, names.all_pictures())
+    names.rename_picture(picture)
     for node in nodes:
         node.node_tree = ensure(scene, picture)
         node.label = node.node_tree.name

@@ -139,7 +139,7 @@ def _take_in(scene, there: str, here: str, others: list) -> None:
             picture.id = names.new_id()
             if picture.tree is not None:
                 picture.tree.stillwater.picture, picture.tree.stillwater.scene = picture.id, scene.name
-        names.make_unique(picture, names.all_pictures())
+        names.rename_picture(picture)
 
 
 HANDLERS = [

@@ -31,7 +31,7 @@ class STILLWATER_PG_layer(bpy.types.PropertyGroup):
 
     id: StringProperty(options={"HIDDEN"})
     name: StringProperty(
-        name="Name", description="Unique in its picture", maxlen=200, options=set(),
+        name="Name", description="Unique in its picture", maxlen=names.LONGEST_LAYER, options=set(),
         update=lambda self, context: names.rename_layer(self),
     )
     selected: BoolProperty(

@@ -5,6 +5,8 @@ import uuid
 
 import bpy
 
+LONGEST_PICTURE, LONGEST_LAYER = 60, 200  # bytes of a name
+
 renamed = []  # called with a picture when a layer of it was renamed; rooms that keep names add themselves
 PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"}  # options of a property that holds one: not to be keyed
 
@@ -65,14 +67,17 @@ def search_water(self, context, text):
     return [name for name in search_layers(self, context, text) if name in water]
 
 
-def make_unique(item, siblings) -> None:
-    """Gives `item` a name that none of its siblings has, as Blender does: Boat, Boat.001, Boat.002, ..."""
+def make_unique(item, siblings, most: int) -> None:
+    """Gives `item` a name that none of its siblings has, as Blender does: Boat, Boat.001, Boat.002, ...
+
+    `most`: bytes that its name may take.
+    """
     taken = {other.name for other in siblings if other.as_pointer() != item.as_pointer()}
     name, count = item.name or "Unnamed", 0
     base = re.sub(r"\.\d{3,}$", "", name)
     while name in taken:
         count += 1
-        name = _within(base, f".{count:03d}", item.bl_rna.properties["name"].length_max)
+        name = _within(base, f".{count:03d}", most)
     if name != item.name:
         item.name = name
 
@@ -82,9 +87,14 @@ def _within(base: str, end: str, most: int) -> str:
     return base.encode()[: most - len(end)].decode(errors="ignore") + end
 
 
+def rename_picture(picture) -> None:
+    """After a picture got a name: makes it unique in the file."""
+    make_unique(picture, all_pictures(), LONGEST_PICTURE)
+
+
 def rename_layer(layer) -> None:
     """After a layer got a name: makes it unique, and tells who keeps it."""
     picture = picture_of(layer)
-    make_unique(layer, picture.layers)
+    make_unique(layer, picture.layers, LONGEST_LAYER)
     for follow in renamed:
         follow(picture)

@@ -114,8 +114,8 @@ class STILLWATER_PG_picture(bpy.types.PropertyGroup):
 
     id: StringProperty(options={"HIDDEN"})
     name: StringProperty(
-        name="Name", description="Unique in the file", maxlen=60, options=set(),
-        update=lambda self, context: names.make_unique(self, names.all_pictures()),
+        name="Name", description="Unique in the file", maxlen=names.LONGEST_PICTURE, options=set(),
+        update=lambda self, context: names.rename_picture(self),
     )
     picture: StringProperty(
         name="Picture", description="Image file", subtype="FILE_PATH", options=names.PATH, update=image.follow
