@@ -10,7 +10,8 @@ namespace stillwater {
 
 struct CyclicParameters {
   bool along_x = true, along_y = false;
-  std::optional<Plane> known;  ///< 0..1, of the image's size: what is below one half is filled too; none = all is known
+  /// 0..1, of the image's size: what is below one half is filled too; none = all is known.
+  std::optional<Plane> known = std::nullopt;
   int patch = 9;               ///< see InpaintParameters
   std::uint64_t seed = 0;
 };

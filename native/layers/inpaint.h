@@ -14,8 +14,8 @@ struct InpaintParameters {
   std::optional<double> radius;  ///< how far a patch may come from, pixels; none = from anywhere
   std::uint64_t seed = 0;
   int grow = 2;  ///< pixels; patches come from no nearer to the hole's edge than this
-  std::optional<Plane>
-      source;  ///< 0..1, patches come from where it is at least one half; none = from the whole picture
+  /// 0..1, patches come from where it is at least one half; none = from the whole picture.
+  std::optional<Plane> source = std::nullopt;
   /// How seams are blended; without, every pixel of the hole is a copy of one of the source.
   std::optional<BlendParameters> blend = BlendParameters();
 };
