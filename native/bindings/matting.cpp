@@ -9,6 +9,7 @@
 #include "layers/closed_form.h"
 #include "layers/coarse_to_fine.h"
 #include "layers/colour_clusters.h"
+#include "layers/colour_prior.h"
 #include "layers/colour_samples.h"
 #include "layers/drawn_trimap.h"
 #include "layers/foreground.h"
@@ -29,8 +30,8 @@ Rgba colours_of(const FloatArray& picture) {
 
 // The system's rows, in the order of the unknown pixels: (pixel, other pixel, coefficient) and the right-hand side.
 py::tuple laplacian_arrays(const FloatArray& picture, const FloatArray& trimap, double epsilon) {
-  const MattingSystem system =
-      matting_laplacian(as_image<cv::Vec4f>(picture, "picture"), trimap_from_grey(as_image<float>(trimap, "trimap")), epsilon);
+  const MattingSystem system = matting_laplacian(as_image<cv::Vec4f>(picture, "picture"),
+                                                 trimap_from_grey(as_image<float>(trimap, "trimap")), epsilon);
   std::vector<int> rows, columns, pixels;
   std::vector<double> values, right;
   const SparseGrid& grid = system.grid;
@@ -50,8 +51,8 @@ py::tuple laplacian_arrays(const FloatArray& picture, const FloatArray& trimap, 
 }
 
 py::tuple closed_form_arrays(const FloatArray& picture, const FloatArray& trimap, double epsilon, double tolerance,
-                             const std::optional<FloatArray>& prior_alpha, const std::optional<FloatArray>& prior_weight,
-                             int spacing) {
+                             const std::optional<FloatArray>& prior_alpha,
+                             const std::optional<FloatArray>& prior_weight, int spacing) {
   const Rgba image = as_image<cv::Vec4f>(picture, "picture");
   const Trimap labels = trimap_from_grey(as_image<float>(trimap, "trimap"));
   ClosedFormOptions options{.epsilon = epsilon, .tolerance = tolerance, .spacing = spacing};
@@ -107,9 +108,16 @@ py::tuple colour_sample_arrays(const FloatArray& picture, const FloatArray& trim
   ColourSamples samples;
   {
     const NoGil released;
-    samples = sample_colours(image, labels, cv::Mat_<unsigned char>(labels == known::unknown), {.iterations = iterations, .nearness = nearness});
+    samples = sample_colours(image, labels, cv::Mat_<unsigned char>(labels == known::unknown),
+                             {.iterations = iterations, .nearness = nearness});
   }
   return py::make_tuple(as_array(samples.foreground), as_array(samples.background), as_array(samples.misfit));
+}
+
+py::tuple colour_prior_arrays(const FloatArray& picture, const FloatArray& trimap) {
+  const MattePrior prior =
+      colour_prior(as_image<cv::Vec4f>(picture, "picture"), trimap_from_grey(as_image<float>(trimap, "trimap")));
+  return py::make_tuple(as_array(prior.alpha), as_array(prior.weight));
 }
 
 // The clusters' means and covariances.
@@ -180,7 +188,8 @@ void bind_matting(py::module_& module) {
   py::class_<Stroke>(module, "Stroke").def(py::init(&stroke_of), py::arg("points"), py::arg("width"));
   module.def("drawn", &drawn, py::arg("size"), py::arg("stroke"), py::arg("name") = "stroke");
   module.def("trimap_from_scribbles", &scribbled, py::arg("size"), py::arg("foreground"), py::arg("background"));
-  module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"), py::arg("snap"));
+  module.def("trimap_from_lasso", &lassoed, py::arg("picture"), py::arg("outline"), py::arg("feather"),
+             py::arg("snap"));
   module.def("trimap_from_grey", &checked_trimap, py::arg("grey"));
   py::class_<ClusterOptions>(module, "ClusterOptions")
       .def(py::init<>())
@@ -189,8 +198,9 @@ void bind_matting(py::module_& module) {
       .def_readwrite("noise", &ClusterOptions::noise);
   module.def("colour_clusters", &cluster_list, py::arg("colours"), py::arg("weights"),
              py::arg("options") = ClusterOptions());
-  module.def("half_of", [](const FloatArray& picture) { return as_array(half_of(as_image<cv::Vec4f>(picture, "picture"))); },
-             py::arg("picture"));
+  module.def(
+      "half_of", [](const FloatArray& picture) { return as_array(half_of(as_image<cv::Vec4f>(picture, "picture"))); },
+      py::arg("picture"));
   module.def("half_of_trimap", [](const FloatArray& trimap) {
     return as_array(grey_of(half_of(trimap_from_grey(as_image<float>(trimap, "trimap")))));
   }, py::arg("trimap"));
@@ -198,8 +208,9 @@ void bind_matting(py::module_& module) {
   module.def("matting_laplacian", &laplacian_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon"));
   module.def("sample_colours", &colour_sample_arrays, py::arg("picture"), py::arg("trimap"), py::arg("iterations") = 8,
              py::arg("nearness") = 1.0);
+  module.def("colour_prior", &colour_prior_arrays, py::arg("picture"), py::arg("trimap"));
   module.def("closed_form_matte", &closed_form_arrays, py::arg("picture"), py::arg("trimap"), py::arg("epsilon") = 1e-7,
-             py::arg("tolerance") = 1e-5, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
+             py::arg("tolerance") = 1e-6, py::arg("prior_alpha") = std::nullopt, py::arg("prior_weight") = std::nullopt,
              py::arg("spacing") = 8);
   module.def("matte", &matte_array, py::arg("picture"), py::arg("trimap"), py::arg("options") = MatteOptions(),
              py::arg("progress") = Progress::Listener());

@@ -9,7 +9,8 @@ namespace stillwater::check {
 namespace {
 
 template <class Given, class Allowed>
-[[noreturn]] void refuse(std::string_view name, const Given& given, const Allowed& allowed, std::string_view unit = "") {
+[[noreturn]] void refuse(std::string_view name, const Given& given, const Allowed& allowed,
+                         std::string_view unit = "") {
   std::ostringstream sentence;
   sentence << name << ": " << given << " is not " << allowed;
   if (!unit.empty()) sentence << " (" << unit << ")";

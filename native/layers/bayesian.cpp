@@ -39,7 +39,8 @@ std::vector<Gaussian> gaussians(std::vector<WeightedColour>& colours, const Clus
 }
 
 // Eq. 9 and 10 in turn, for one pair of clusters.
-Solution solve(const Colour& colour, const Gaussian& front, const Gaussian& back, double alpha, const BayesianOptions& options) {
+Solution solve(const Colour& colour, const Gaussian& front, const Gaussian& back, double alpha,
+               const BayesianOptions& options) {
   const double precision = 1 / (options.camera_noise * options.camera_noise);
   Solution best;
   best.alpha = alpha;
@@ -109,7 +110,8 @@ class Peel {
   }
 
   // Colours around a pixel, weighted; and their mean alpha.
-  double gather(const cv::Point& centre, int radius, std::vector<WeightedColour>& front, std::vector<WeightedColour>& back) const {
+  double gather(const cv::Point& centre, int radius, std::vector<WeightedColour>& front,
+                std::vector<WeightedColour>& back) const {
     front.clear();
     back.clear();
     const double narrow = -1 / (2 * options_.sigma * options_.sigma);
@@ -137,7 +139,8 @@ class Peel {
       if (radius > largest || (fronts.size() >= least && backs.size() >= least)) break;
     }
     Solution best;
-    const std::vector<Gaussian> front = gaussians(fronts, options_.clusters), back = gaussians(backs, options_.clusters);
+    const std::vector<Gaussian> front = gaussians(fronts, options_.clusters),
+                                back = gaussians(backs, options_.clusters);
     for (const Gaussian& f : front)
       for (const Gaussian& b : back) {
         const Solution found = solve(colour_of(picture_(pixel)), f, b, alpha, options_);

@@ -30,6 +30,7 @@ ClosedFormMatte solve(const Rgba& picture, const Trimap& trimap, const ClosedFor
       for (int node = grid.row[y]; node < grid.row[y + 1]; ++node) work(y, grid.column[node], alpha[grid.entry(node)]);
   };
   if (options.start) each_unknown([&](int y, int x, double& a) { a = (*options.start)(y, x); });
+  done(0);
   MattingMultigrid multigrid(system, {.spacing = options.spacing});
   matte.iterations = solve_by_conjugate_gradients(system, multigrid, alpha, {.tolerance = options.tolerance}, done);
   each_unknown([&](int y, int x, double a) { matte.alpha(y, x) = static_cast<float>(a); });

@@ -9,7 +9,7 @@ namespace stillwater {
 
 struct ClosedFormOptions {
   double epsilon = 1e-7;             ///< regularises the windows' covariances (squared colour; eq. 12)
-  double tolerance = 1e-5;           ///< alpha
+  double tolerance = 1e-6;           ///< alpha
   std::optional<MattePrior> prior = {};   ///< what is thought of alpha before
   std::optional<Plane> start = {};        ///< a matte that is near, of the picture's size
   int spacing = 8;                   ///< pixels between the nodes of the multigrid's first coarse grid

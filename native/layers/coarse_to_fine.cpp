@@ -1,10 +1,10 @@
 #include "layers/coarse_to_fine.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "core/parallel.h"
+#include "layers/affine_alpha.h"
 
 namespace stillwater {
 namespace {
@@ -12,29 +12,6 @@ namespace {
 constexpr int grain = 16;
 // Keeps a from growing where colours hardly change (colour squared).
 constexpr double ridge = 1e-5;
-
-// (a, b) of the window around a pixel.
-cv::Vec4f affine_at(const Plane& matte, const Rgba& picture, int y, int x) {
-  Eigen::Vector3d colours = Eigen::Vector3d::Zero(), both = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  double alphas = 0;
-  int count = 0;
-  for (int ny = std::max(0, y - 1); ny <= std::min(matte.rows - 1, y + 1); ++ny)
-    for (int nx = std::max(0, x - 1); nx <= std::min(matte.cols - 1, x + 1); ++nx, ++count) {
-      const cv::Vec4f& pixel = picture(ny, nx);
-      const Eigen::Vector3d colour(pixel[0], pixel[1], pixel[2]);
-      colours += colour;
-      squares += colour * colour.transpose();
-      both += matte(ny, nx) * colour;
-      alphas += matte(ny, nx);
-    }
-  const Eigen::Vector3d mean = colours / count;
-  const double alpha = alphas / count;
-  const Eigen::Matrix3d covariance = squares / count - mean * mean.transpose() + ridge * Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d a = covariance.llt().solve(both / count - alpha * mean);
-  return cv::Vec4f(static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
-                   static_cast<float>(alpha - a.dot(mean)));
-}
 
 bool flat_around(const Plane& matte, int y, int x) {
   const float value = matte(y, x);
@@ -104,7 +81,12 @@ Plane enlarge_matte(const Plane& matte, const Rgba& half, const Rgba& picture) {
   parallel_rows(matte.rows, grain, [&](int first, int last) {
     for (int y = first; y < last; ++y)
       for (int x = 0; x < matte.cols; ++x)
-        affine(y, x) = flat_around(matte, y, x) ? cv::Vec4f(0, 0, 0, matte(y, x)) : affine_at(matte, half, y, x);
+        if (flat_around(matte, y, x)) {
+          affine(y, x) = {0, 0, 0, matte(y, x)};
+        } else {
+          const AffineAlpha fit = fit_affine_alpha(half, matte, {x, y}, 1, ridge);
+          affine(y, x) = cv::Vec4d(fit.slope[0], fit.slope[1], fit.slope[2], fit.offset);
+        }
   });
   cv::blur(affine, affine, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
   cv::resize(affine, large, cv::Size(2 * matte.cols, 2 * matte.rows), 0, 0, cv::INTER_LINEAR);
@@ -119,7 +101,8 @@ Plane enlarge_matte(const Plane& matte, const Rgba& half, const Rgba& picture) {
   return result;
 }
 
-Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options, const SolveLevel& solve) {
+Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options,
+                     const SolveLevel& solve) {
   const bool enlarge_only = options.finest > 1;
   const bool small = std::min(picture.rows, picture.cols) < 8;
   if (small || (!enlarge_only && can_be_solved_at_once(trimap, options))) return solve(picture, trimap, {});

@@ -46,9 +46,12 @@ std::vector<ColourCluster> colour_clusters(std::vector<WeightedColour>& colours,
                                          [](const Node& a, const Node& b) { return a.variance < b.variance; });
     if (widest->variance <= options.variance) break;
     const Node whole = *widest;
-    const auto below = [&](const WeightedColour& colour) { return whole.direction.dot(colour.colour - whole.mean) <= 0; };
+    const auto below = [&](const WeightedColour& colour) {
+      return whole.direction.dot(colour.colour - whole.mean) <= 0;
+    };
     const auto begin = colours.begin();
-    const auto middle = std::stable_partition(begin + static_cast<long>(whole.first), begin + static_cast<long>(whole.last), below);
+    const auto middle =
+        std::stable_partition(begin + static_cast<long>(whole.first), begin + static_cast<long>(whole.last), below);
     const auto split = static_cast<size_t>(middle - begin);
     if (split == whole.first || split == whole.last) break;
     *widest = spread(colours, whole.first, split);

@@ -1,6 +1,5 @@
 #include "layers/colour_prior.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/parallel.h"
+#include "layers/affine_alpha.h"
 
 namespace stillwater {
 namespace {
@@ -16,32 +16,8 @@ constexpr int grain = 16;
 constexpr int radius = 2;
 // Keeps the colours' covariance invertible (colour squared).
 constexpr double flat = 1e-5;
-
-// How much of alpha's variance around a pixel no affine function of colour explains.
-double roughness_at(const Rgba& picture, const Plane& alpha, int y, int x) {
-  Eigen::Vector3d colour_sum = Eigen::Vector3d::Zero(), both = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-  double alpha_sum = 0, alpha_square = 0;
-  int count = 0;
-  for (int ny = std::max(0, y - radius); ny <= std::min(picture.rows - 1, y + radius); ++ny)
-    for (int nx = std::max(0, x - radius); nx <= std::min(picture.cols - 1, x + radius); ++nx) {
-      const cv::Vec4f& pixel = picture(ny, nx);
-      const Eigen::Vector3d colour(pixel[0], pixel[1], pixel[2]);
-      const double a = alpha(ny, nx);
-      colour_sum += colour;
-      both += a * colour;
-      square += colour * colour.transpose();
-      alpha_sum += a;
-      alpha_square += a * a;
-      ++count;
-    }
-  const Eigen::Vector3d mean = colour_sum / count;
-  const double alpha_mean = alpha_sum / count;
-  const Eigen::Matrix3d covariance = square / count - mean * mean.transpose() + flat * Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d slope_by = both / count - alpha_mean * mean;
-  const double variance = alpha_square / count - alpha_mean * alpha_mean;
-  return std::max(0.0, variance - slope_by.dot(covariance.ldlt().solve(slope_by)));
-}
+// Less confidence than this is none.
+constexpr double negligible = 1e-3;
 
 double distance_between(const cv::Vec4f& a, const cv::Vec4f& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
@@ -77,9 +53,11 @@ Plane trust_in_known(const Trimap& trimap, double crowd) {
 
 }  // namespace
 
-MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options) {
+MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourPriorOptions& options,
+                        const std::function<void(double)>& done) {
   const Plane trust = trust_in_known(trimap, options.crowd);
-  const ColourSamples samples = sample_colours(picture, trimap, cv::Mat_<unsigned char>(trust > 0), options.samples);
+  const cv::Mat_<unsigned char> trusted_at(trust > 0);
+  const ColourSamples samples = sample_colours(picture, trimap, trusted_at, options.samples, done);
   MattePrior prior{grey_of(trimap), Plane::zeros(trimap.size())};
   const auto each_sampled = [&](const auto& work) {
     parallel_rows(trimap.rows, grain, [&](int first, int last) {
@@ -94,8 +72,10 @@ MattePrior colour_prior(const Rgba& picture, const Trimap& trimap, const ColourP
   each_sampled([&](int y, int x) {
     const double apart = distance_between(samples.foreground(y, x), samples.background(y, x)) / options.separation;
     const double fits = std::exp(-samples.misfit(y, x) / options.misfit);
-    const double smooth = std::exp(-roughness_at(picture, prior.alpha, y, x) / options.roughness);
-    prior.weight(y, x) = static_cast<float>(options.weight * std::min(1.0, apart * apart) * fits * smooth * trust(y, x));
+    const double trusted = std::min(1.0, apart * apart) * fits * trust(y, x);
+    if (trusted < negligible) return;
+    const double rough = fit_affine_alpha(picture, prior.alpha, {x, y}, radius, flat).rest;
+    prior.weight(y, x) = static_cast<float>(options.weight * trusted * std::exp(-rough / options.roughness));
   });
   return prior;
 }

@@ -52,25 +52,34 @@ struct Pair {
 
 class Search {
  public:
-  Search(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted, const ColourSampleOptions& options)
-      : picture_(picture), trimap_(trimap), wanted_(wanted), options_(options), fronts_(border_samples(picture, trimap, known::foreground)),
-        backs_(border_samples(picture, trimap, known::background)), far_from_front_(distance_from(trimap, known::foreground)),
-        far_from_back_(distance_from(trimap, known::background)), weight_(static_cast<float>(options.nearness)),
+  Search(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
+         const ColourSampleOptions& options)
+      : picture_(picture),
+        trimap_(trimap),
+        wanted_(wanted),
+        options_(options),
+        fronts_(border_samples(picture, trimap, known::foreground)),
+        backs_(border_samples(picture, trimap, known::background)),
+        far_from_front_(distance_from(trimap, known::foreground)),
+        far_from_back_(distance_from(trimap, known::background)),
+        weight_(static_cast<float>(options.nearness)),
         pairs_(picture.size(), cv::Vec2i(static_cast<int>(fronts_.size()) / 2, static_cast<int>(backs_.size()) / 2)),
         costs_(picture.size(), std::numeric_limits<float>::infinity()) {}
 
-  ColourSamples best() {
+  ColourSamples best(const std::function<void(double)>& done) {
     const auto looked_for = [this](int y, int x) {
       return wanted_(y, x) && trimap_(y, x) == known::unknown;
     };
     if (!fronts_.empty() && !backs_.empty())
       for (int round = 0; round < options_.iterations; ++round)
-        for (const int colour : {0, 1})
+        for (const int colour : {0, 1}) {
+          done((round + 0.5 * colour) / options_.iterations);
           parallel_rows(picture_.rows, grain, [&](int first, int last) {
             for (int y = first; y < last; ++y)
               for (int x = (y + colour) % 2; x < picture_.cols; x += 2)
                 if (looked_for(y, x)) improve(y, x, round);
           });
+        }
     return found();
   }
 
@@ -112,7 +121,8 @@ class Search {
   // What a pair costs, or, where that is more than `enough`, something that is too.
   float cost_of(const Place& place, const Pair& pair, float enough) const {
     const Sample &front = fronts_[pair.front], &back = backs_[pair.back];
-    const float front_x = front.x - place.x, front_y = front.y - place.y, back_x = back.x - place.x, back_y = back.y - place.y;
+    const float front_x = front.x - place.x, front_y = front.y - place.y, back_x = back.x - place.x,
+                back_y = back.y - place.y;
     const float far = place.by_front * std::sqrt(front_x * front_x + front_y * front_y) +
                       place.by_back * std::sqrt(back_x * back_x + back_y * back_y);
     return far >= enough ? far : far + levels * misfit(place.colour, front, back);
@@ -164,8 +174,8 @@ float best_mix(const cv::Vec4f& colour, const cv::Vec4f& foreground, const cv::V
 }
 
 ColourSamples sample_colours(const Rgba& picture, const Trimap& trimap, const cv::Mat_<unsigned char>& wanted,
-                             const ColourSampleOptions& options) {
-  return Search(picture, trimap, wanted, options).best();
+                             const ColourSampleOptions& options, const std::function<void(double)>& done) {
+  return Search(picture, trimap, wanted, options).best(done);
 }
 
 }  // namespace stillwater

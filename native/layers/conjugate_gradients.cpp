@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -59,7 +60,7 @@ int solve_by_conjugate_gradients(const MattingSystem& system, MattingMultigrid& 
   Vector residual = system.right, direction(solution.size(), 0.0), product(solution.size(), 0.0), correction;
   multiply(system, solution, product);
   combine(residual, 1, product, -1);
-  double before = 0, first_error = 0;
+  double before = 0, first_error = 0, least_error = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= options.iterations; ++i) {
     preconditioner.solve_roughly(residual, correction);
     const double error = largest(correction);
@@ -67,8 +68,9 @@ int solve_by_conjugate_gradients(const MattingSystem& system, MattingMultigrid& 
       combine(solution, 1, correction, 1);
       return i;
     }
-    first_error = std::max(first_error, error);
-    done(std::log(first_error / error) / std::log(first_error / options.tolerance));
+    if (i == 0) first_error = error;
+    least_error = std::min(least_error, error);
+    done(std::log(first_error / least_error) / std::log(first_error / options.tolerance));
     const double now = dot(residual, correction);
     combine(direction, i == 0 ? 0 : now / before, correction, 1);
     multiply(system, direction, product);

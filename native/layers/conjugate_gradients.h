@@ -7,7 +7,7 @@
 namespace stillwater {
 
 struct ConjugateGradientsOptions {
-  double tolerance = 1e-5;  ///< alpha; the largest correction that still counts
+  double tolerance = 1e-6;  ///< alpha; the largest correction that still counts
   int iterations = 1000;    ///< at most
 };
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "layers/live_wire.h"
+#include "layers/segment_distance.h"
 
 namespace stillwater {
 namespace {
@@ -16,13 +19,15 @@ namespace {
 Labels drawn(const cv::Size& picture, const std::vector<Stroke>& strokes, const std::string& kind) {
   if (strokes.empty()) throw BadInput("scribbles." + kind + ": no stroke is not one stroke or more");
   Labels owner = Labels::zeros(picture);
+  Mask mask = Mask::zeros(picture);
   bool any = false;
   for (size_t i = 0; i < strokes.size(); ++i) {
-    Mask mask = Mask::zeros(picture);
-    draw(strokes[i], "scribbles." + kind + "[" + std::to_string(i) + "]", mask);
-    for (int y = 0; y < picture.height; ++y)
-      for (int x = 0; x < picture.width; ++x)
+    const cv::Rect box = draw(strokes[i], "scribbles." + kind + "[" + std::to_string(i) + "]", mask);
+    for (int y = box.y; y < box.br().y; ++y)
+      for (int x = box.x; x < box.br().x; ++x) {
         if (mask(y, x) && !owner(y, x)) owner(y, x) = static_cast<int>(i) + 1, any = true;
+        mask(y, x) = 0;
+      }
   }
   if (!any) throw BadInput("scribbles." + kind + ": no stroke touches the picture");
   return owner;
@@ -33,29 +38,29 @@ void refuse_contradictions(const Labels& foreground, const Labels& background) {
     for (int x = 0; x < foreground.cols; ++x)
       if (foreground(y, x) && background(y, x))
         throw BadInput("scribbles: foreground[" + std::to_string(foreground(y, x) - 1) + "] and background[" +
-                       std::to_string(background(y, x) - 1) + "] contradict each other at [" + std::to_string(x) + ", " +
-                       std::to_string(y) + "] (a pixel is one or the other)");
+                       std::to_string(background(y, x) - 1) + "] contradict each other at [" + std::to_string(x) +
+                       ", " + std::to_string(y) + "] (a pixel is one or the other)");
 }
 
 // The distance of each pixel's centre from the outline, as far as `reach`; further away infinite.
 Plane distance_to(const std::vector<Point>& outline, const cv::Size& picture, double reach) {
   Plane distance(picture, std::numeric_limits<float>::infinity());
-  for (size_t i = 0; i < outline.size(); ++i) {
-    const Point &a = outline[i], &b = outline[(i + 1) % outline.size()];
-    const double along_x = b.x - a.x, along_y = b.y - a.y, square = along_x * along_x + along_y * along_y;
-    const auto range = [reach](double from, double to, int size) {
-      return cv::Range(static_cast<int>(std::clamp(std::floor(std::min(from, to) - reach), 0.0, double(size))),
-                       static_cast<int>(std::clamp(std::ceil(std::max(from, to) + reach), 0.0, double(size))));
-    };
-    const cv::Range rows = range(a.y, b.y, picture.height), columns = range(a.x, b.x, picture.width);
-    for (int y = rows.start; y < rows.end; ++y)
-      for (int x = columns.start; x < columns.end; ++x) {
-        const double px = x + 0.5 - a.x, py = y + 0.5 - a.y;
-        const double share = square > 0 ? std::clamp((px * along_x + py * along_y) / square, 0.0, 1.0) : 0;
-        const auto far = static_cast<float>(std::hypot(px - share * along_x, py - share * along_y));
-        distance(y, x) = std::min(distance(y, x), far);
-      }
-  }
+  parallel_rows(picture.height, 16, [&](int top, int bottom) {
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const Point &a = outline[i], &b = outline[(i + 1) % outline.size()];
+      const auto range = [reach](double from, double to, int first, int last) {
+        const double low = std::floor(std::min(from, to) - reach), high = std::ceil(std::max(from, to) + reach);
+        return cv::Range(static_cast<int>(std::clamp<double>(low, first, last)),
+                         static_cast<int>(std::clamp<double>(high, first, last)));
+      };
+      const cv::Range rows = range(a.y, b.y, top, bottom), columns = range(a.x, b.x, 0, picture.width);
+      for (int y = rows.start; y < rows.end; ++y)
+        for (int x = columns.start; x < columns.end; ++x) {
+          const auto far = static_cast<float>(distance_to_segment(x + 0.5, y + 0.5, a.x, a.y, b.x, b.y).distance);
+          distance(y, x) = std::min(distance(y, x), far);
+        }
+    }
+  });
   return distance;
 }
 
@@ -88,7 +93,8 @@ void check_lasso(const Rgba& picture, const Lasso& lasso) {
   if (lasso.outline.size() < 3)
     throw BadInput("lasso: " + std::to_string(lasso.outline.size()) + " points are not three or more");
   for (size_t i = 0; i < lasso.outline.size(); ++i)
-    for (const double v : {lasso.outline[i].x, lasso.outline[i].y}) check::finite("lasso[" + std::to_string(i) + "]", v);
+    for (const double v : {lasso.outline[i].x, lasso.outline[i].y})
+      check::finite("lasso[" + std::to_string(i) + "]", v);
   check::in_range("feather", lasso.feather, 0, 1000, "px");
   check::in_range("snap", lasso.snap, 0, 1000, "px");
 }

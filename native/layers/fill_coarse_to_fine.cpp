@@ -50,7 +50,8 @@ double usual_distance(const MatchField& field) {
   std::vector<int> distances;
   for (int y = 0; y < field.area.height; ++y)
     for (int x = 0; x < field.area.width; ++x)
-      if (field.wanted(y, x) && field.distance(y, x) != MatchField::unmatched) distances.push_back(field.distance(y, x));
+      if (field.wanted(y, x) && field.distance(y, x) != MatchField::unmatched)
+        distances.push_back(field.distance(y, x));
   if (distances.empty()) return 1;
   const auto quartile = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 3 / 4);
   std::nth_element(distances.begin(), quartile, distances.end());
@@ -111,7 +112,8 @@ class Filling {
   ShiftMap run() {
     const size_t last = levels_.size() - 1;
     const FillFrontParameters front{.patch = parameters_.patch, .seed = parameters_.seed};
-    MatchField field = field_of(fill_front(levels_[last], front, course_.part(work(last))), levels_[last], parameters_.patch);
+    MatchField field =
+        field_of(fill_front(levels_[last], front, course_.part(work(last))), levels_[last], parameters_.patch);
     for (size_t i = last;; --i) {
       for (int round = 0; round < rounds(i); ++round) {
         search(i, round, field);
@@ -143,9 +145,12 @@ class Filling {
   }
 
   void search(size_t level, int round, MatchField& field) {
-    const PatchSearch how{.patch = parameters_.patch, .rounds = passes, .radius = levels_[level].radius,
+    const PatchSearch how{.patch = parameters_.patch,
+                          .rounds = passes,
+                          .radius = levels_[level].radius,
                           .seed = parameters_.seed + 1000 * level + static_cast<std::uint64_t>(round)};
-    patch_match(levels_[level].bytes, levels_[level].bytes, levels_[level].centres, field, how, course_.part(work(level)));
+    patch_match(levels_[level].bytes, levels_[level].bytes, levels_[level].centres, field, how,
+                course_.part(work(level)));
   }
 
   void take_vote(InpaintLevel& level, const MatchField& field, const At& at) const {
@@ -154,9 +159,11 @@ class Filling {
   }
 
   MatchField cut_anew(InpaintLevel& level, const MatchField& found) {
-    ShiftMap shifts = agreed_shifts(found, weights_of(found, level.hole), parameters_.patch, level.hole, course_.part(0));
+    ShiftMap shifts =
+        agreed_shifts(found, weights_of(found, level.hole), parameters_.patch, level.hole, course_.part(0));
     const SeamCost cost(level);
-    expand_shifts(cost, level.hole, candidates(level, shifts), {.sweeps = 2}, shifts, course_.part(0.75 * cutting_work()));
+    const std::vector<cv::Vec2s> tried = candidates(level, shifts);
+    expand_shifts(cost, level.hole, tried, {.sweeps = 2}, shifts, course_.part(0.75 * cutting_work()));
     copy_shifted(shifts, level.hole, level.colour);
     refresh_bytes(level);
     MatchField field = field_of(shifts, level, parameters_.patch);
@@ -168,10 +175,12 @@ class Filling {
     std::vector<cv::Vec2s> shifts = most_used(found, level.hole, most_found);
     InpaintLevel other = level;
     other.bytes = PatchImage(level.colour);
-    const ShiftMap front = fill_front(other, {.patch = parameters_.patch, .seed = parameters_.seed}, course_.part(0.15 * cutting_work()));
-    const FrequentShiftsParameters frequent{.patch = parameters_.patch, .seed = parameters_.seed, .most = most_frequent};
-    for (const std::vector<cv::Vec2s>& more :
-         {most_used(front, level.hole, most_in_front), frequent_shifts(level, frequent, course_.part(0.1 * cutting_work()))})
+    const ShiftMap front =
+        fill_front(other, {.patch = parameters_.patch, .seed = parameters_.seed}, course_.part(0.15 * cutting_work()));
+    const FrequentShiftsParameters frequent{
+        .patch = parameters_.patch, .seed = parameters_.seed, .most = most_frequent};
+    for (const std::vector<cv::Vec2s>& more : {most_used(front, level.hole, most_in_front),
+                                               frequent_shifts(level, frequent, course_.part(0.1 * cutting_work()))})
       for (const cv::Vec2s& shift : more)
         if (std::find(shifts.begin(), shifts.end(), shift) == shifts.end()) shifts.push_back(shift);
     return shifts;
@@ -182,7 +191,8 @@ class Filling {
     MatchField large = twice_as_large(field, centres_that_touch(level.hole, parameters_.patch));
     for (int y = 0; y < large.area.height; ++y)
       for (int x = 0; x < large.area.width; ++x) {
-        const cv::Point source = cv::Point(x, y) + large.area.tl() + cv::Point(large.offset(y, x)[0], large.offset(y, x)[1]);
+        const cv::Point source =
+            cv::Point(x, y) + large.area.tl() + cv::Point(large.offset(y, x)[0], large.offset(y, x)[1]);
         const bool there = cv::Rect(cv::Point(), level.hole.size()).contains(source) && level.centres(source);
         if (large.wanted(y, x) && there) large.distance(y, x) = 0;
       }
@@ -191,10 +201,12 @@ class Filling {
   }
 
   ShiftMap settled(const InpaintLevel& level, const MatchField& field) {
-    ShiftMap shifts = agreed_shifts(field, weights_of(field, level.hole), parameters_.patch, level.hole, course_.part(work(0)));
+    ShiftMap shifts =
+        agreed_shifts(field, weights_of(field, level.hole), parameters_.patch, level.hole, course_.part(work(0)));
     const SeamCost cost(level);
     const ExpansionParameters nearby{.sweeps = 2, .reach = settled_reach};
-    expand_shifts(cost, level.hole, most_used(shifts, level.hole, most_settled), nearby, shifts, course_.part(3 * work(0)));
+    expand_shifts(cost, level.hole, most_used(shifts, level.hole, most_settled), nearby, shifts,
+                  course_.part(3 * work(0)));
     settle_seams(cost, level.hole, settling_rounds, shifts, course_.part(work(0)));
     return shifts;
   }
@@ -207,7 +219,8 @@ class Filling {
 
 }  // namespace
 
-ShiftMap fill_coarse_to_fine(std::vector<InpaintLevel>& levels, const CoarseToFineParameters& parameters, const At& at) {
+ShiftMap fill_coarse_to_fine(std::vector<InpaintLevel>& levels, const CoarseToFineParameters& parameters,
+                             const At& at) {
   return Filling(levels, parameters, at).run();
 }
 

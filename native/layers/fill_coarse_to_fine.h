@@ -17,7 +17,8 @@ struct CoarseToFineParameters {
 ///
 /// - Coarsest level: structure first (fill_front()).
 /// - On each level down to the finest on which the hole has at most 14000 pixels: rounds of search and vote.
-/// - There all is cut anew (expand_shifts()) of the shifts that were found, of those of a structure-first filling of that level,
+/// - There all is cut anew (expand_shifts()) of the shifts that were found, of those of a structure-first filling of
+/// that level,
 ///   and of those frequent in the picture (frequent_shifts()): pieces become large and sharp.
 /// - On finer levels a round of search and vote adapts pieces to each other; on the finest seams are settled once more.
 ///

@@ -198,7 +198,8 @@ ForegroundAndBackground foreground_and_background(const Rgba& picture, const Pla
     const double share = static_cast<double>(i) / levels;
     const cv::Size size(static_cast<int>(std::lround(std::pow(picture.cols, share))),
                         static_cast<int>(std::lround(std::pow(picture.rows, share))));
-    level = {resized(whole.picture, size), resized(whole.alpha, size), resized(level.front, size), resized(level.back, size)};
+    level = {resized(whole.picture, size), resized(whole.alpha, size), resized(level.front, size),
+             resized(level.back, size)};
     const bool small = size.width <= options.small_size && size.height <= options.small_size;
     const int iterations = small ? options.small_iterations : options.big_iterations;
     for (int k = 0; k < iterations; ++k) improve(level, options, static_cast<float>(std::max(1.0, highest)));

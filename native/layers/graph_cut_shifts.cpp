@@ -36,7 +36,8 @@ class Expansion {
     Graph graph(static_cast<unsigned>(movable.size()), static_cast<unsigned>(4 * movable.size()));
     for (size_t i = 0; i < movable.size(); ++i) graph.addVtx();
     bool linked = false;
-    for (size_t i = 0; i < movable.size(); ++i) linked = describe(graph, static_cast<int>(i), movable[i], shift) || linked;
+    for (size_t i = 0; i < movable.size(); ++i)
+      linked = describe(graph, static_cast<int>(i), movable[i], shift) || linked;
     const bool taken = linked && cut(graph, movable, shift);
     for (const cv::Point& p : movable) node_(p) = -1;
     return taken;
@@ -57,7 +58,8 @@ class Expansion {
     if (piece == pieces_.end()) return movable;
     for (const cv::Point& p : piece->second) {
       if (shifts_(p) != shift || !at_border(p)) continue;
-      const cv::Rect near = cv::Rect(p.x - reach_, p.y - reach_, 2 * reach_ + 1, 2 * reach_ + 1) & cv::Rect(cv::Point(), hole_.size());
+      const cv::Rect near =
+          cv::Rect(p.x - reach_, p.y - reach_, 2 * reach_ + 1, 2 * reach_ + 1) & cv::Rect(cv::Point(), hole_.size());
       for (int y = near.y; y < near.br().y; ++y)
         for (int x = near.x; x < near.br().x; ++x)
           if (hole_(y, x)) take({x, y});
@@ -83,7 +85,8 @@ class Expansion {
         takes += cost_(p, q, shift, shifts_(q));
       } else if (k % 2 == 1) {  // each pair once
         const std::int64_t first_takes = cost_(p, q, shift, shifts_(q)), second_takes = cost_(p, q, shifts_(p), shift);
-        const std::int64_t both_keep = std::min<std::int64_t>(cost_(p, q, shifts_(p), shifts_(q)), first_takes + second_takes);
+        const std::int64_t both_keep =
+            std::min<std::int64_t>(cost_(p, q, shifts_(p), shifts_(q)), first_takes + second_takes);
         // E = both_keep + (first - keep) x_p + (0 - first) x_q + (first + second - keep) (1 - x_p) x_q
         takes += first_takes - both_keep;
         graph.addTermWeights(node_(q), 0, first_takes);
@@ -113,7 +116,8 @@ class Expansion {
     graph.maxFlow();
     std::vector<std::pair<cv::Point, cv::Vec2s>> before;
     for (size_t i = 0; i < movable.size(); ++i)
-      if (!graph.inSourceSegment(static_cast<int>(i))) before.emplace_back(movable[i], shifts_(movable[i])), shifts_(movable[i]) = shift;
+      if (!graph.inSourceSegment(static_cast<int>(i)))
+        before.emplace_back(movable[i], shifts_(movable[i])), shifts_(movable[i]) = shift;
     if (before.empty()) return false;
     if (energy(movable) < energy_before) return true;
     for (const auto& [p, old] : before) shifts_(p) = old;
@@ -134,16 +138,15 @@ class Expansion {
 void expand_shifts(const SeamCost& cost, const Mask& hole, const std::vector<cv::Vec2s>& candidates,
                    const ExpansionParameters& parameters, ShiftMap& shifts, const std::function<void(double)>& at) {
   Expansion expansion(cost, hole, parameters.reach, shifts);
-  const int sweeps = parameters.sweeps;
-  int tries = 0;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    bool moved = false;
+  std::vector<cv::Vec2s> tried = candidates;
+  for (int sweep = 0; sweep < parameters.sweeps && !tried.empty(); ++sweep) {
     expansion.look_up_pieces();
-    for (const cv::Vec2s& shift : candidates) {
-      moved = expansion.expand(shift) || moved;
-      if (at) at(++tries / static_cast<double>(sweeps * static_cast<int>(candidates.size())));
+    std::vector<cv::Vec2s> grown;
+    for (size_t i = 0; i < tried.size(); ++i) {
+      if (expansion.expand(tried[i])) grown.push_back(tried[i]);
+      if (at) at((sweep + static_cast<double>(i + 1) / static_cast<double>(tried.size())) / parameters.sweeps);
     }
-    if (!moved) break;
+    tried = grown;
   }
 }
 

@@ -166,7 +166,8 @@ std::vector<double> galerkin(const GridCoarsening& way, const SparseGrid& fine_g
   in_alternate_stripes(fine_grid.height, coarse_rows * way.spacing, false, [&](int top, int bottom) {
     RowTimesP<B> row;
     each_node(fine_grid, top, bottom, [&](int node, int x, int y) {
-      row_times_p<B>(fine_grid, basis, coefficients + static_cast<size_t>(node) * 25 * B * B, node, x, y, way.spacing, row);
+      row_times_p<B>(fine_grid, basis, coefficients + static_cast<size_t>(node) * 25 * B * B, node, x, y, way.spacing,
+                     row);
       const std::array<double, 4> values =
           basis ? (*basis)[static_cast<size_t>(fine_grid.entry(node))] : std::array<double, 4>{};
       add_to_coarse<B>(node_of_entry, corners(way, node, x, y), values, row, coarse.data());

@@ -18,7 +18,8 @@ using Block = Eigen::Matrix<double, B, B>;
 
 // right minus the node's row of the operator * solution.
 template <int B, class Coefficient>
-Numbers<B> rest_at(const Coefficient* blocks, const std::array<int, 5>& around, const double* right, const double* solution) {
+Numbers<B> rest_at(const Coefficient* blocks, const std::array<int, 5>& around, const double* right,
+                   const double* solution) {
   Numbers<B> rest = Eigen::Map<const Numbers<B>>(right);
   for (const int dy : {0, 1, 3, 4, 2}) {
     const double* near = solution + static_cast<size_t>(around[dy]) * B;
@@ -54,7 +55,8 @@ void GridOperator<B>::relax(const std::vector<double>& right, std::vector<double
     for (int i = 0; i < count; ++i) {
       const size_t node = static_cast<size_t>(backwards ? first + count - 1 - i : first + i);
       const size_t entry = static_cast<size_t>(grid->entry(static_cast<int>(node))) * B;
-      const Numbers<B> rest = rest_at<B>(coefficients + node * 25 * B * B, grid->around[node], &right[entry], solution.data());
+      const Numbers<B> rest =
+          rest_at<B>(coefficients + node * 25 * B * B, grid->around[node], &right[entry], solution.data());
       const Eigen::Map<const Block<B>> inverse(inverses + node * B * B);
       Eigen::Map<Numbers<B>> own(&solution[entry]);
       own.noalias() += inverse * rest;

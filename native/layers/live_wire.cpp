@@ -16,6 +16,8 @@ namespace {
 constexpr double fare = 0.03;
 // Anchors are so many times the reach apart, and no less than so many pixels.
 constexpr double anchor_spacing = 4, least_spacing = 24;
+// So far a point of the outline may be from where it was found, px.
+constexpr double slack = 0.2;
 
 Point between(const Point& a, const Point& b, double share) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
@@ -111,7 +113,9 @@ class LiveWire {
 
   std::vector<cv::Point> cheapest_way(const cv::Point& from, const cv::Point& to, size_t first, size_t last) const {
     if (!in_picture(from) || !in_picture(to)) return {};
-    const auto [corridor, box] = near_samples(first, last);
+    const auto near = near_samples(first, last);
+    const Mask& corridor = near.first;
+    const cv::Rect& box = near.second;
     if (!box.contains(from) || !box.contains(to) || !corridor(from - box.tl()) || !corridor(to - box.tl())) return {};
     double strongest;
     cv::minMaxLoc(edges_(box), nullptr, &strongest, nullptr, nullptr, corridor);
@@ -143,7 +147,8 @@ class LiveWire {
     }
     std::vector<cv::Point> way;
     if (start != goal && came_from(goal) < 0) return way;
-    for (cv::Point p = goal; p != start; p = {came_from(p) % box.width, came_from(p) / box.width}) way.push_back(p + box.tl());
+    for (cv::Point p = goal; p != start; p = {came_from(p) % box.width, came_from(p) / box.width})
+      way.push_back(p + box.tl());
     way.push_back(from);
     std::reverse(way.begin(), way.end());
     return way;
@@ -162,9 +167,10 @@ class LiveWire {
     }
     bounds &= cv::Rect2d(0, 0, edges_.cols, edges_.rows);
     if (bounds.empty()) return {};
-    const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(bounds.x), static_cast<int>(bounds.y)),
-                                  cv::Point(static_cast<int>(std::ceil(bounds.br().x)), static_cast<int>(std::ceil(bounds.br().y)))) &
-                         cv::Rect(cv::Point(), edges_.size());
+    const cv::Rect box =
+        cv::Rect(cv::Point(static_cast<int>(bounds.x), static_cast<int>(bounds.y)),
+                 cv::Point(static_cast<int>(std::ceil(bounds.br().x)), static_cast<int>(std::ceil(bounds.br().y)))) &
+        cv::Rect(cv::Point(), edges_.size());
     for (StrokePoint& point : band.points) point.x -= box.x, point.y -= box.y;
     Mask mask = Mask::zeros(box.size());
     draw(band, "lasso", mask);
@@ -182,7 +188,7 @@ class LiveWire {
         for (size_t k = 0; k + 1 < ways[i].size(); ++k) outline.push_back({ways[i][k].x + 0.5, ways[i][k].y + 0.5});
       }
     }
-    return outline.size() < 3 ? samples_ : evened(evened(outline));
+    return outline.size() < 3 ? samples_ : simplified(evened(evened(outline)));
   }
 
   static std::vector<Point> evened(const std::vector<Point>& outline) {
@@ -192,6 +198,16 @@ class LiveWire {
       even[i] = between(outline[i], between(a, b, 0.5), 0.5);
     }
     return even;
+  }
+
+  // The same within `slack`, with fewer points.
+  static std::vector<Point> simplified(const std::vector<Point>& outline) {
+    std::vector<cv::Point2f> all, few;
+    for (const Point& point : outline) all.emplace_back(static_cast<float>(point.x), static_cast<float>(point.y));
+    cv::approxPolyDP(all, few, slack, true);
+    std::vector<Point> result;
+    for (const cv::Point2f& point : few) result.push_back({point.x, point.y});
+    return result.size() < 3 ? outline : result;
   }
 
   Plane edges_;

@@ -36,14 +36,18 @@ void take_off_haze(Plane& alpha, float haze) {
 
 Plane closed_form(const Rgba& picture, const Trimap& trimap, const MatteOptions& options, Progress& progress) {
   progress.phase("solving the matte", 1);
+  constexpr double comparing = 0.3;  // a share of a level's work
   const SolveLevel solve = [&](const Rgba& image, const Trimap& labels, const Plane& start) {
-    ClosedFormOptions level{.tolerance = options.tolerance};
-    if (options.colour > 0) level.prior = colour_prior(image, labels, {.weight = options.colour});
-    if (!start.empty()) level.start = start;
+    // Each level is four times the one before it; the last one ends at 1.
     const double before = static_cast<double>(image.total()) / static_cast<double>(4 * picture.total());
     const auto done = [&](double share) { progress.at(before * (1 + 3 * share)); };
-    done(0);
-    Plane alpha = closed_form_matte(image, labels, level, done).alpha;
+    ClosedFormOptions level{.tolerance = options.tolerance};
+    if (options.colour > 0)
+      level.prior = colour_prior(image, labels, {.weight = options.colour},
+                                 [&](double share) { done(comparing * share); });
+    if (!start.empty()) level.start = start;
+    const auto solved = [&](double share) { done(comparing + (1 - comparing) * share); };
+    Plane alpha = closed_form_matte(image, labels, level, solved).alpha;
     take_off_haze(alpha, static_cast<float>(options.haze));
     return alpha;
   };

@@ -73,7 +73,8 @@ void add_windows(const Rgba& picture, double epsilon, int first, int last, Matti
   for (int y = std::max(1, first - 1); y < std::min(picture.rows - 1, last + 1); ++y) {
     std::array<const int*, 3> rows{};
     for (int dy = 0; dy < 3; ++dy)
-      if (const int at = y - 1 + dy; at >= first && at < last) rows[dy] = &nodes[static_cast<size_t>(at - first) * width];
+      if (const int at = y - 1 + dy; at >= first && at < last)
+        rows[dy] = &nodes[static_cast<size_t>(at - first) * width];
     const auto unknown_in_column = [&](int x) {
       return std::any_of(rows.begin(), rows.end(), [x](const int* row) { return row && row[x] >= 0; });
     };

@@ -80,7 +80,11 @@ struct MattingMultigrid::Levels {
   Eigen::LLT<Eigen::MatrixXd> direct;
 
   explicit Levels(const MattingSystem& s, const MultigridOptions& options)
-      : system(s), basis(centred(s)), coefficients(s.coefficients.size()), inverses(static_cast<size_t>(s.grid.nodes())), residual(s.right.size(), 0.0) {
+      : system(s),
+        basis(centred(s)),
+        coefficients(s.coefficients.size()),
+        inverses(static_cast<size_t>(s.grid.nodes())),
+        residual(s.right.size(), 0.0) {
     for (size_t node = 0; node < inverses.size(); ++node) inverses[node] = 1 / s.coefficients[node * 25 + 12];
     parallel_rows(s.grid.nodes(), 4096, [&](int first, int last) {
       for (size_t i = static_cast<size_t>(first) * 25; i < static_cast<size_t>(last) * 25; ++i)
@@ -90,7 +94,8 @@ struct MattingMultigrid::Levels {
     coarse.push_back(coarser<1>(s.grid, options.spacing, &basis, s.coefficients.data()));
     while (coarse.back().way.grid.nodes() > options.coarsest)
       coarse.push_back(coarser<4>(coarse.back().way.grid, 2, nullptr, coarse.back().coefficients.data()));
-    for (CoarseLevel& level : coarse) level.system = {&level.way.grid, level.coefficients.data(), level.inverses.data()};
+    for (CoarseLevel& level : coarse)
+      level.system = {&level.way.grid, level.coefficients.data(), level.inverses.data()};
     direct.compute(dense(coarse.back().way.grid, coarse.back().coefficients));
   }
 
@@ -101,7 +106,8 @@ struct MattingMultigrid::Levels {
       for (int b = 0; b < 4; ++b) right[4 * node + b] = level.right[static_cast<size_t>(grid.entry(node)) * 4 + b];
     const Eigen::VectorXd solution = direct.solve(right);
     for (int node = 0; node < grid.nodes(); ++node)
-      for (int b = 0; b < 4; ++b) level.solution[static_cast<size_t>(grid.entry(node)) * 4 + b] = solution[4 * node + b];
+      for (int b = 0; b < 4; ++b)
+        level.solution[static_cast<size_t>(grid.entry(node)) * 4 + b] = solution[4 * node + b];
   }
 
   // right -> solution, on coarse level i.

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "layers/segment_distance.h"
 
 namespace stillwater {
 namespace {
@@ -31,32 +32,34 @@ cv::Range pixels_between(double from, double to, int size) {
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-void draw_piece(const StrokePoint& a, const StrokePoint& b, double width, Mask& mask) {
+// Gives the box that was looked at.
+cv::Rect draw_piece(const StrokePoint& a, const StrokePoint& b, double width, Mask& mask) {
   const double radius_a = a.pressure * width / 2, radius_b = b.pressure * width / 2;
   const double reach = std::max({radius_a, radius_b, thinnest});
   const cv::Range rows = pixels_between(std::min(a.y, b.y) - reach, std::max(a.y, b.y) + reach, mask.rows);
-  const double along_x = b.x - a.x, along_y = b.y - a.y, square = along_x * along_x + along_y * along_y;
-  for (int y = rows.start; y < rows.end; ++y) {
-    const cv::Range columns = pixels_between(std::min(a.x, b.x) - reach, std::max(a.x, b.x) + reach, mask.cols);
+  const cv::Range columns = pixels_between(std::min(a.x, b.x) - reach, std::max(a.x, b.x) + reach, mask.cols);
+  for (int y = rows.start; y < rows.end; ++y)
     for (int x = columns.start; x < columns.end; ++x) {
-      const double px = x + 0.5 - a.x, py = y + 0.5 - a.y;
-      const double share = square > 0 ? std::clamp((px * along_x + py * along_y) / square, 0.0, 1.0) : 0;
-      const double radius = std::max(thinnest, radius_a + share * (radius_b - radius_a));
-      if (std::hypot(px - share * along_x, py - share * along_y) <= radius) mask(y, x) = 255;
+      const auto [distance, share] = distance_to_segment(x + 0.5, y + 0.5, a.x, a.y, b.x, b.y);
+      if (distance <= std::max(thinnest, radius_a + share * (radius_b - radius_a))) mask(y, x) = 255;
     }
-  }
+  return {columns.start, rows.start, columns.size(), rows.size()};
 }
 
 }  // namespace
 
-void draw(const Stroke& stroke, const std::string& name, Mask& mask) {
+cv::Rect draw(const Stroke& stroke, const std::string& name, Mask& mask) {
   check_stroke(stroke, name);
+  cv::Rect box;
   for (size_t i = 0; i < stroke.points.size(); ++i) {
     const StrokePoint& point = stroke.points[i];
-    draw_piece(stroke.points[i == 0 ? 0 : i - 1], point, stroke.width, mask);
+    box |= draw_piece(stroke.points[i == 0 ? 0 : i - 1], point, stroke.width, mask);
     const double x = std::floor(point.x), y = std::floor(point.y);
-    if (x >= 0 && y >= 0 && x < mask.cols && y < mask.rows) mask(static_cast<int>(y), static_cast<int>(x)) = 255;
+    if (x < 0 || y < 0 || x >= mask.cols || y >= mask.rows) continue;
+    mask(static_cast<int>(y), static_cast<int>(x)) = 255;
+    box |= cv::Rect(static_cast<int>(x), static_cast<int>(y), 1, 1);
   }
+  return box;
 }
 
 }  // namespace stillwater

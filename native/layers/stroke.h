@@ -22,11 +22,12 @@ struct Stroke {
 using Mask = cv::Mat_<unsigned char>;
 
 /// Draws a stroke into a mask: a pixel is drawn on where its centre lies within half the width of the line, which
-/// narrows and widens evenly between points. However thin a line is, it is nowhere thinner than a pixel: it has no gaps,
-/// and each point draws on the pixel it lies in. What lies outside of the mask is left out.
+/// narrows and widens evenly between points. However thin a line is, it is nowhere thinner than a pixel: it has no
+/// gaps, and each point draws on the pixel it lies in. What lies outside of the mask is left out. Gives a box around
+/// what was drawn.
 ///
 /// Throws BadInput, with `name` in its sentence, for a stroke without points, a place that is not a finite number, a
 /// pressure outside 0..1, and a width that is not within 0 .. 16384.
-void draw(const Stroke& stroke, const std::string& name, Mask& mask);
+cv::Rect draw(const Stroke& stroke, const std::string& name, Mask& mask);
 
 }  // namespace stillwater

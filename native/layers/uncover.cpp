@@ -15,8 +15,10 @@ namespace {
 constexpr int fringe = 3;
 // What a fringe still says where nothing better is near.
 constexpr float fringe_share = 1e-3f;
-// What is seen of the background, where it is not painted, goes over into the filling between these shares of coverage.
-constexpr float still_seen = 0.5f, no_more_seen = 0.9f;
+// Something solid is what is covered so far somewhere; all that hangs together with it is filled from this coverage on.
+constexpr float solid = 0.5f, covered = 0.1f;
+// So much of what does not fit may lie in the layer, as it is seen (colour times coverage), before the background shares it.
+constexpr float borne = 0.06f;
 
 // 1 at most so many pixels away from the true pixels of a mask, else 0.
 Plane grown(const cv::Mat& mask, double pixels) {
@@ -58,6 +60,33 @@ Uncovered mixed_from(const Rgba& picture, const Plane& matte, const cv::Rect& bo
   colours.back = back;
   split_remainder(picture, matte, colours);
   return colours;
+}
+
+// The front takes what does not fit, as far as that is hardly seen in it.
+void bear(const Rgba& picture, const Plane& matte, Uncovered& colours) {
+  parallel_pixels(picture.size(), [&](int y, int x) {
+    const float a = matte(y, x);
+    if (a <= 0 || a >= 1) return;
+    cv::Vec4f& front = colours.front(y, x);
+    const cv::Vec4f amiss = picture(y, x) - a * front - (1 - a) * colours.back(y, x);
+    for (int c = 0; c < 3; ++c) {
+      const float taken = front[c] + std::clamp(amiss[c], -borne, borne) / a;
+      front[c] = std::clamp(taken, std::min(0.0f, front[c]), std::max(1.0f, front[c]));
+    }
+  });
+}
+
+// What a layer covers of which some is solid, all else of it being a veil.
+cv::Mat solid_parts(const Plane& matte) {
+  cv::Mat labels;
+  const int count = cv::connectedComponents(matte > covered, labels, 8, CV_32S);
+  std::vector<unsigned char> is_solid(count, 0);
+  for (int y = 0; y < matte.rows; ++y)
+    for (int x = 0; x < matte.cols; ++x)
+      if (matte(y, x) > solid) is_solid[labels.at<int>(y, x)] = 255;
+  cv::Mat parts(matte.size(), CV_8U);
+  parallel_pixels(matte.size(), [&](int y, int x) { parts.at<unsigned char>(y, x) = is_solid[labels.at<int>(y, x)]; });
+  return parts;
 }
 
 // Smoothly, from where the background is seen pure.
@@ -113,15 +142,18 @@ void touch_up(const TouchUp& place, const Plane& hole, const InpaintParameters& 
   filling = inpaint(filling, region, again, progress);
 }
 
-// `seen`: the picture with the background's own colours at soft edges, of the picture's size.
-Rgba exemplar_filling(const Rgba& seen, const Plane& matte, const Plane& hidden, const ExemplarFill& fill, const Progress& progress) {
-  const Plane hole = grown(matte > still_seen, fringe);
+// `known`: what is left of the picture, and behind veils what is seen through them; of the picture's size. Filled where
+// something solid is, and around it.
+Rgba exemplar_filling(const Rgba& known, const Plane& matte, const Plane& hidden, const cv::Mat& solid_part,
+                      const ExemplarFill& fill, const Progress& progress) {
+  const Plane hole = grown(solid_part, fringe);
+  if (!any(hole >= 0.5f)) return known;
   InpaintParameters search = fill.search;
-  search.patch = fitting_patch(search.patch, seen.size());
-  if (search.patch < 3 || !any(hole < 0.5f)) return smooth_filling(seen, matte);
+  search.patch = fitting_patch(search.patch, known.size());
+  if (search.patch < 3 || !any(hole < 0.5f)) return smooth_filling(known, matte);
   search.source = source_of(search, matte, hidden, hole);
-  if (!search.source) return smooth_filling(seen, matte);
-  Rgba filling = inpaint(seen, hole, search, progress);
+  if (!search.source) return smooth_filling(known, matte);
+  Rgba filling = inpaint(known, hole, search, progress);
   for (const TouchUp& place : fill.touch_ups) touch_up(place, hole, search, filling, progress);
   return filling;
 }
@@ -136,12 +168,14 @@ Rgba painted_filling(const Rgba& painted, const cv::Rect& box) {
 Rgba filling_in(const cv::Rect& box, const Rgba& left, const Plane& matte, const Plane& hidden, const Rgba& seen,
                 const Filling& filling, const Progress& progress) {
   if (const Rgba* painted = std::get_if<Rgba>(&filling)) return painted_filling(*painted, box);
-  if (const ExemplarFill* exemplar = std::get_if<ExemplarFill>(&filling)) {
-    Rgba whole = left.clone();
-    seen.copyTo(whole(box));
-    return exemplar_filling(whole, matte, hidden, *exemplar, progress)(box);
-  }
-  return std::get<Fill>(filling) == Fill::push_pull ? smooth_filling(seen, matte(box)) : left(box).clone();
+  const ExemplarFill* exemplar = std::get_if<ExemplarFill>(&filling);
+  if (exemplar == nullptr && std::get<Fill>(filling) == Fill::none) return seen;
+  const cv::Mat parts = solid_parts(matte);
+  const cv::Mat veil = any(parts) ? cv::Mat((matte > covered) & ~(grown(parts, fringe) > 0)) : cv::Mat(matte > 0);
+  Rgba known = left.clone();
+  seen.copyTo(known(box), veil(box));
+  return exemplar ? exemplar_filling(known, matte, hidden, parts, *exemplar, progress)(box)
+                  : smooth_filling(known(box), matte(box));
 }
 
 }  // namespace
@@ -153,14 +187,8 @@ Uncovered uncover(const Rgba& left, const Plane& matte, const Plane& hidden, con
   const Rgba picture = left(box);
   const Plane part = matte(box);
   Uncovered colours = mixed_from(picture, part, box, progress);
-  const Rgba filled = filling_in(box, left, matte, hidden, colours.back, filling, progress);
-  const bool painted = std::holds_alternative<Rgba>(filling);
-  parallel_pixels(box.size(), [&](int y, int x) {
-    const float gone = std::clamp((part(y, x) - still_seen) / (no_more_seen - still_seen), 0.0f, 1.0f);
-    const float share = painted ? 1.0f : gone;
-    cv::Vec4f& back = colours.back(y, x);
-    back = share >= 1 ? filled(y, x) : cv::Vec4f(back + share * (filled(y, x) - back));
-  });
+  colours.back = filling_in(box, left, matte, hidden, colours.back, filling, progress);
+  bear(picture, part, colours);
   split_remainder(picture, part, colours);
   return colours;
 }

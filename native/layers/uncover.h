@@ -37,10 +37,13 @@ struct Uncovered {
 
 /// Takes a layer's colours apart from those behind it.
 ///
-/// - At soft edges both are what foreground_and_background() says. Behind what the layer covers more than half, and 3 px
-///   around (there lies the fringe of what was cut out), `filling` paints; between 1/2 and 9/10 of coverage what is seen
-///   of the background goes over into it. A painted background holds everywhere. The picture itself is not changed where the matte is 0.
-/// - Laid over each other they give the picture: whatever is missing, r = P - aF - (1-a)B, is split between them,
+/// - The front's colours are what foreground_and_background() says. Behind something solid (covered more than half
+///   somewhere), as far as it covers more than a tenth and 3 px around (there lies the fringe of what was cut out),
+///   `filling` paints; behind a veil, and with Fill::none, lies what foreground_and_background() sees through it. A painted
+///   background holds everywhere. The picture itself is not changed where the matte is 0.
+/// - What then does not fit is borne by the front as far as it is hardly seen there (0.06 of colour times coverage): a
+///   matte that is a little wide leaves no outline behind, and one that is right no halo.
+/// - Laid over each other they give the picture: what is still missing, r = P - aF - (1-a)B, is split between them,
 ///   F += a r / (a^2 + (1-a)^2), B += (1-a) r / (a^2 + (1-a)^2).
 /// - Patches come from what no layer hides or has hidden, as long as there is any; a patch is never larger than
 ///   the picture, and where not even 3 px fit, or no whole patch is seen of a background at all, the filling is smooth.

@@ -67,6 +67,7 @@ def matte(
     trimap: ArrayLike,
     method: Literal["closed-form", "bayesian"] = "closed-form",
     *,
+    finest: int = 1,
     progress: Progress | None = None,
 ) -> Array:
     """The matte of what a trimap cuts out of a picture.
@@ -76,6 +77,8 @@ def matte(
             black.
         trimap: height x width: 0.9 and above is foreground, 0.1 and below background, all between unknown.
         method: "closed-form" or "bayesian".
+        finest: 2, 4 or 8 solves the closed form on a picture so many times smaller, and enlarges the matte by the picture's
+            detail: a preview. 1 solves it all.
         progress: called with a phase and the share 0..1 that is done, at most ten times a second; answers False to
             cancel.
 
@@ -83,13 +86,14 @@ def matte(
         height x width, alpha 0..1; 1 and 0 where the trimap knows.
 
     Raises:
-        ValueError: sizes differ, a colour is not a finite number, no pixel is foreground, or none is background.
+        ValueError: sizes differ, a colour is not a finite number, no pixel is foreground, or none is background, or
+            `finest` is another number.
         stillwater.Cancelled: `progress` said so.
 
     Source: Levin, Lischinski and Weiss 2008, "A closed-form solution to natural image matting", eq. 12 and 13.
     """
     options = engine.MatteOptions()
-    options.method = _method(method)
+    options.method, options.finest = _method(method), finest
     return engine.matte(_colours(picture), trimap, options, progress)
 
 
