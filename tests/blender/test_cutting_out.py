@@ -205,22 +205,19 @@ def test_a_killed_server_is_said_and_the_next_stroke_starts_another(extension, s
     assert now.problem == ""
 
 
-def test_a_sketch_is_there_within_half_a_second(extension, scene, tmp_path, monkeypatch):
-    """Of a picture of 1280 x 720, the process being there: the best of a few strokes, as the machine may be busy."""
+def test_a_sketch_comes_long_before_the_matte(extension, scene, tmp_path, monkeypatch):
+    """Of a picture of 1280 x 720, the process being there: in less than half the time, however busy the machine is."""
     monkeypatch.setattr(extension.play.show, "seen", True)
     picture = cutting.open_picture(scene, tmp_path, (1280, 720))
     cutting.scribble(scene, picture)
-    cutting.wait_for_sketch(extension, scene, picture)
-    taken = []
-    for i in range(4):
+    stage.wait(extension)
+    shares = []
+    for i in range(2):
         began = time.monotonic()
         cutting.lay(scene, picture, picture.layers[0], background=[cutting.across(picture, 1.7 + 0.06 * i)])
-        now = stage_of(extension, scene, picture)
-        before = now.sketch.number
-        while now.sketch is None or now.sketch.number == before:
-            extension.play.server.tick()
-            assert time.monotonic() < began + 20, now.problem
-            time.sleep(0.005)
-        taken.append(time.monotonic() - began)
+        cutting.wait_for_sketch(extension, scene, picture)
+        sketched = time.monotonic() - began
+        stage.wait(extension, 40)
+        shares.append(sketched / (time.monotonic() - began))
     extension.play.server.end()
-    assert min(taken) < 0.5, taken
+    assert min(shares) < 0.5, shares

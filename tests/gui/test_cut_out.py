@@ -39,7 +39,7 @@ def test_strokes_cut_the_tree_out(window):
     yield from window.settle()
     yield from strokes(window, "foreground", ON_IT)
     assert picture().layers[0].matte.form == "scribbles"
-    yield from window.see("Press Background and draw beside", window.box("VIEW_3D", "UI"))
+    yield from window.see("Press Background and draw", window.box("VIEW_3D", "UI"))
     yield from window.screenshot("20-foreground")
     before = window.pixels(part(window, MEADOW)).astype(float)
     yield from strokes(window, "background", BESIDE)
