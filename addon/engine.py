@@ -74,6 +74,24 @@ def standing(document, read, folder: Path | None = None):
     return standing.standing(document, read=read, cache=_caches.setdefault(folder, cache.Cache(folder)))
 
 
+def quick_matte(key: str, folder: Path):
+    """The matte that `serve` answered with this key, H x W of the picture, bytes, top row first.
+
+    `folder`: of the cache. None where it has it no more.
+    """
+    from stillwater.render import cache
+
+    kept = _caches.setdefault(folder, cache.Cache(folder)).find(key)
+    return None if kept is None else kept.arrays["matte"]
+
+
+def cache_in(folder: Path) -> Path:
+    """The cache's folder of a recipe whose paths start at `folder`, where no other is chosen."""
+    from stillwater.render import cache
+
+    return folder / cache.FOLDER
+
+
 def forget_layers(document, folder: Path) -> None:
     """Removes from the cache in `folder` what was prepared for a document. Throws ValueError, OSError."""
     from stillwater.render import cache, preview

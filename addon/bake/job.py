@@ -13,6 +13,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from .. import engine, preferences, strokes, versions
 from ..compositor import tree as node
+from ..compositor.frames import spans
 from ..properties import image
 from ..recipe.animation import Animation
 from ..recipe.sentences import named
@@ -162,19 +163,35 @@ def running_trees() -> list:
 
 
 def settle() -> None:
-    """After a file was opened or a step undone: what says that it is being baked, and is not, was cancelled.
+    """After a file was opened or a step undone: what says that it is being baked, and is not, has ended since.
 
-    Frames that lie on disk now, whatever happened since the file was saved, are shown.
+    Frames that lie on disk now, whatever happened since the file was saved, are shown. Where all are there, the bake ended
+    well; else it was cancelled.
     """
     for tree in _trees():
-        if tree.stillwater.state == "running" and not running(tree):
-            tree.stillwater.state = "cancelled"
-            tree.stillwater.message = rpt_("Interrupted; the frames made so far are kept")
+        _follow_frames(tree)
         if not running(tree) and not tree.stillwater.holds:
             tree.stillwater.holds = True
             node.show(tree)
         elif node.changed_on_disk(tree):
             node.show(tree)
+        state = tree.stillwater
+        if state.state == "running" and not running(tree):
+            whole = state.there == spans(list(range(state.first, state.last + 1)))
+            state.state, state.message = "done" if whole else "cancelled", ""
+            if not whole:
+                state.message = rpt_("Interrupted; the frames made so far are kept")
+
+
+def _follow_frames(tree) -> None:
+    """A step from before the file was saved for the first time knows the frames where they lay until then."""
+    state = tree.stillwater
+    if not bpy.data.filepath or not Path(state.folder).is_relative_to(places.root_of("")) or Path(state.folder).is_dir():
+        return
+    pictures = [picture for scene in bpy.data.scenes for picture in scene.stillwater.pictures if picture.tree == tree]
+    for picture in pictures[:1]:
+        state.folder = places.locate_in(places.frames_of(picture))(".")
+        node.show(tree)
 
 
 def before_undo() -> None:

@@ -18,6 +18,7 @@ from ..compositor import tree as node
 from ..recipe.animation import facts_of
 from ..ui import redraw
 from . import job, places
+from .collect import files_of
 from .report import Report, report
 
 INTERVAL = 0.1  # s, between two steps
@@ -140,11 +141,8 @@ def _glance(scene, picture, folder: Path) -> str:
 
 def _state_of(folder: Path, recipe: dict) -> list:
     """What of the disk a report depends on: the frames' folder, and the files that the recipe names."""
-    named = [recipe.get("picture")]
-    for layer in recipe["layers"]:
-        for part in (layer.get("matte", {}), layer.get("fill", {})):
-            named += [part[name] for name in ("file", "labels") if name in part]
-    return [_time_of(folder / name) for name in [recipe["output"]["folder"], *filter(None, named)]]
+    named = [part[name] for part, name in files_of(recipe)]
+    return [_time_of(folder / name) for name in [recipe["output"]["folder"], *named]]
 
 
 def _time_of(path: Path) -> int:

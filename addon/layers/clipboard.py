@@ -14,7 +14,8 @@ from ..properties import arrange, curves, plain
 from .selection import OfLayers, OfPicture, chosen
 
 VERSION = 1
-FILES = ("matte.file", "matte.labels", "fill.file")  # the paths that a layer holds
+FILES = ("matte.file", "matte.labels", "matte.trimap", "fill.file")  # the paths that a layer holds
+FILES += ("fill.source.file", "fill.source.labels", "fill.source.trimap")
 
 
 def place() -> Path:
@@ -25,7 +26,7 @@ def place() -> Path:
 def to_text(picture, indices: list[int]) -> str:
     """The layers as JSON, front first: what was said, keys, drivers, and the names of the layers that they know.
 
-    What was drawn comes along as numbers. Throws ValueError where it can't be read.
+    What was drawn comes along: of its motion as numbers, of its matte and fill as strokes. Throws ValueError where it can't be read.
     """
     names = {layer.id: layer.name for layer in picture.layers}
     layers = []
@@ -34,7 +35,9 @@ def to_text(picture, indices: list[int]) -> str:
         values = plain.values_of(layer, but=arrange.OWN)
         _write_strokes(values["motion"], layer.id, strokes.drawn(picture.id_data, picture))
         _each_path(values, lambda path: bpy.path.abspath(path) if path else "")
-        layers.append({"id": layer.id, "name": layer.name, "values": values, **curves.to_data(picture, index)})
+        drawn = strokes.cut_out(picture.id_data, picture, layer)
+        said = {"id": layer.id, "name": layer.name, "values": values, "strokes": drawn}
+        layers.append({**said, **curves.to_data(picture, index)})
     return json.dumps({"stillwater_layers": VERSION, "layers": layers, "names": names}, indent=1)
 
 
@@ -51,6 +54,7 @@ def from_text(picture, text: str, at: int) -> list[str]:
             _each_path(said["values"], _relative)
             plain.set_values(picture.layers[index], said["values"])
             lost += _reconnect(picture, index, ids, names)
+            lost += _lay_down(picture, picture.layers[index], said.get("strokes", {}))
             unread = []
             curves.from_data(picture, index, said, ids, lost=unread.append)
             sentence = rpt_("{layer}: a driver reads {what}")
@@ -98,10 +102,23 @@ def _write_strokes(motion: dict, layer_id: str, drawn) -> None:
         motion["bob"]["waterline"] = [{"place": place} for place in line]
 
 
+def _lay_down(picture, layer, drawn: dict) -> list[str]:
+    """Draws what cuts the layer out; a sentence where the picture has nothing to draw on."""
+    try:
+        strokes.lay_down(picture.id_data, picture, layer.id, drawn)
+    except ValueError as error:
+        return [rpt_("{layer}: its strokes did not come along: {why}").format(layer=layer.name, why=error)]
+    return []
+
+
 def _each_path(values: dict, change) -> None:
     for path in FILES:
-        group, name = path.split(".")
-        values[group][name] = change(values[group][name])
+        *groups, name = path.split(".")
+        group = values
+        for part in groups:
+            group = group[part]
+        if name in group:
+            group[name] = change(group[name])
 
 
 def _relative(path: str) -> str:

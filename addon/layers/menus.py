@@ -40,6 +40,9 @@ class STILLWATER_MT_layers(bpy.types.Menu):
         layout.operator("stillwater.copy_layers", icon="COPYDOWN")
         layout.operator("stillwater.paste_layers", icon="PASTEDOWN")
         layout.separator()
+        layout.operator("stillwater.layers_from_mask", icon="MOD_MASK")
+        layout.operator("stillwater.layers_from_pass", icon="RENDERLAYERS")
+        layout.separator()
         for direction, text, icon in (("TOP", "Move to the Front", "TRIA_UP_BAR"),
                                       ("BOTTOM", "Move to the Back", "TRIA_DOWN_BAR")):
             layout.operator("stillwater.move_layer", text=text, icon=icon).direction = direction

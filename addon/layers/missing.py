@@ -8,7 +8,7 @@ def of(picture, index: int, drawn: set[str]) -> list[str]:
     """
     layer = picture.layers[index]
     last = index == len(picture.layers) - 1
-    return [*_matte(layer, last), *_motion(picture, layer, drawn), *_circle(picture, layer)]
+    return [*_matte(layer, last, drawn), *_fill(layer, drawn), *_motion(picture, layer, drawn), *_circle(picture, layer)]
 
 
 def horizon(view, drawn: set[str]) -> list[str]:
@@ -22,16 +22,40 @@ def horizon(view, drawn: set[str]) -> list[str]:
     return []
 
 
-def _matte(layer, last: bool) -> list[str]:
-    matte, fill = layer.matte, layer.fill
-    said = []
-    if matte.form == "none" and not last:
-        said.append("Choose its matte: which part of the picture it is")
-    elif matte.form in ("file", "labels") and not getattr(matte, matte.form):
-        said.append("Choose the file of its matte")
-    if fill.method == "file" and not fill.file:
-        said.append("Choose the file that is painted behind it")
-    return said
+def _matte(layer, last: bool, drawn: set[str]) -> list[str]:
+    matte = layer.matte
+    match matte.form:
+        case "none" if not last:
+            return ["Draw on it with Foreground, or choose its matte: which part of the picture it is"]
+        case "file" | "labels" if not getattr(matte, matte.form):
+            return ["Choose the file of its matte"]
+        case "trimap" if not matte.trimap:
+            return ["Choose the file of its trimap"]
+        case "scribbles" if "foreground" not in drawn:
+            return ["Press Foreground and draw on what is part of it"]
+        case "scribbles" if "background" not in drawn:
+            return ["Press Background and draw beside it, on what is not part of it"]
+        case "lasso" if "outline" not in drawn:
+            return ["Press Outline and draw once around it"]
+    return []
+
+
+def _fill(layer, drawn: set[str]) -> list[str]:
+    fill, source = layer.fill, layer.fill.source
+    if fill.method == "file":
+        return [] if fill.file else ["Choose the file that is painted behind it"]
+    if fill.method == "none":
+        return []
+    match source.form:
+        case "file" | "labels" | "trimap" if not getattr(source, source.form):
+            return ["Choose the file that says what the hole behind it is filled with"]
+        case "scribbles" if "source_foreground" not in drawn:
+            return ["Press Source Foreground and draw on what the hole behind it may be filled with"]
+        case "scribbles" if "source_background" not in drawn:
+            return ["Press Source Background and draw on what the hole behind it must not be filled with"]
+        case "lasso" if "source_outline" not in drawn:
+            return ["Press Source Outline and draw around what the hole behind it may be filled with"]
+    return []
 
 
 def _motion(picture, layer, drawn: set[str]) -> list[str]:

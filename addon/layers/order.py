@@ -26,29 +26,33 @@ class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
         return preset_files.description_of(properties.preset) or tip_(cls.__doc__)
 
     def execute(self, context):
-        picture = context.scene.stillwater.active()
-        count = len(picture.layers)
         try:
-            preset = preset_files.read(self.preset) if self.preset else None
+            new_layer(context.scene.stillwater.active(), self.motion, self.preset)
         except (ValueError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        place = min(picture.active_layer, count)
-        layer = arrange.add_layer(picture, preset.name if preset else self._name(picture))
-        layer.motion.type = preset.kind if preset else self.motion
-        if preset:
-            preset_files.apply(layer.motion.numbers(), preset)
-        water = [other.name for other in picture.layers if other.motion.type == "ripple"]
-        if layer.motion.type == "bob" and len(water) == 1:
-            layer.motion.bob.water = water[0]
-        arrange.move_layer(picture, count, place)
-        picture.active_layer = place
         return {"FINISHED"}
 
-    def _name(self, picture) -> str:
-        if self.motion == "still":
-            return "Layer" if len(picture.layers) else "Background"
-        return {"sway": "Tree", "ripple": "Water", "bob": "Boat", "drift": "Clouds"}[self.motion]
+
+NAMES = {"sway": "Tree", "ripple": "Water", "bob": "Boat", "drift": "Clouds"}
+
+
+def new_layer(picture, motion: str, preset_file: str = ""):
+    """A layer in front of the active one, which it becomes. Throws ValueError, OSError for a preset that can't be read."""
+    count = len(picture.layers)
+    preset = preset_files.read(preset_file) if preset_file else None
+    place = min(picture.active_layer, count)
+    usual = NAMES.get(motion) or ("Layer" if count else "Background")
+    layer = arrange.add_layer(picture, preset.name if preset else usual)
+    layer.motion.type = preset.kind if preset else motion
+    if preset:
+        preset_files.apply(layer.motion.numbers(), preset)
+    water = [other.name for other in picture.layers if other.motion.type == "ripple"]
+    if layer.motion.type == "bob" and len(water) == 1:
+        layer.motion.bob.water = water[0]
+    arrange.move_layer(picture, count, place)
+    picture.active_layer = place
+    return picture.layers[place]
 
 
 class STILLWATER_OT_remove_layer(OfLayers, bpy.types.Operator):

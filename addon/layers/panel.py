@@ -16,6 +16,7 @@ class _Layers(sidebar.OfPicture):
     def draw(self, context):
         picture = context.scene.stillwater.active()
         _draw_list(self.layout, picture)
+        self.layout.menu("STILLWATER_MT_layer_from_outline", icon="MOD_OUTLINE")
         if picture.active_layer >= len(picture.layers):
             sidebar.say(context, self.layout, iface_("Add a layer for each part of the picture that moves"), "INFO")
             return
@@ -124,17 +125,29 @@ def _draw_drift(layout, drift, drawn: set[str]) -> None:
     sidebar.draw(layout, drift, "velocity" if drift.use_velocity else "wind")
 
 
+NUMBERS = {
+    "file": ("file", "channel"), "labels": ("labels", "value"), "trimap": ("trimap", "method"),
+    "scribbles": ("method",), "lasso": ("feather", "snap", "method"),
+}  # fmt: skip
+
+
 def _draw_matte(layout, layer) -> None:
     if part := sidebar.fold(layout, "stillwater_matte", "Matte", closed=False):
-        named = {"file": ("file", "channel"), "labels": ("labels", "value")}
-        sidebar.draw(part, layer.matte, "form")
-        sidebar.draw(part, layer.matte, *named.get(layer.matte.form, ()))
+        sidebar.draw(part, layer.matte, "form", *NUMBERS.get(layer.matte.form, ()))
         sidebar.draw(part, layer, "feather")
 
 
 def _draw_fill(layout, layer) -> None:
-    if part := sidebar.fold(layout, "stillwater_fill", "Behind"):
-        sidebar.draw(part, layer.fill, "method", *(("file",) if layer.fill.method == "file" else ()))
+    part = sidebar.fold(layout, "stillwater_fill", "Behind")
+    if part is None:
+        return
+    fill = layer.fill
+    sidebar.draw(part, fill, "method", *{"file": ("file",), "exemplar": ("patch", "radius", "grow")}.get(fill.method, ()))
+    if fill.method == "exemplar":
+        sidebar.draw(part, fill, "touch_up_radius", "touch_up_seed")
+        column = part.column(align=True)
+        column.prop(fill.source, "form", text="Source")
+        sidebar.draw(column, fill.source, *NUMBERS.get(fill.source.form, ()))
 
 
 def _draw_rest(layout, layer) -> None:

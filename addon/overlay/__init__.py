@@ -2,6 +2,7 @@
 
     water      the water's plane in the picture, by its view
     outline    the outline of a matte
+    cutting    a matte while it is drawn, and what veils the rest
     shapes     the lines that are drawn, in the picture's pixels
     settings   which of them
     draw       onto the screen

@@ -1,19 +1,27 @@
 """Onto the screen, after all else of the viewport."""
 
+import time
+
 import bpy
 import gpu
 from bpy.app.translations import pgettext_iface as iface_
 from gpu_extras.batch import batch_for_shader
 
 from ..play import show
+from ..properties import names
 from ..properties.plane import pixels_to_world
-from . import shapes
+from ..strokes import roles
+from . import cutting, shapes
 from .outline import outline
+
+DASH = 0.006  # of the picture's longer side
+STEPS = 8  # of a march, each second
 
 problem = ""  # why nothing is drawn
 
 _handle = None
 _outlines: dict[tuple, object] = {}  # of the last layer that was asked for
+_veils: dict[tuple, object] = {}  # a texture, of the last one
 _drawn: tuple[tuple, list] = ((), [])  # what was made of the last subject
 
 
@@ -27,7 +35,10 @@ def end() -> None:
     bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
     _handle = None
     _outlines.clear()
+    _veils.clear()
     _drawn = ((), [])
+    if bpy.app.timers.is_registered(march):
+        bpy.app.timers.unregister(march)
 
 
 def draw() -> None:
@@ -38,6 +49,8 @@ def draw() -> None:
     if picture is None or picture.plane is None or not context.space_data.overlay.show_overlays:
         return
     try:
+        if (shown := veil_of(context.scene, picture)) is not None:
+            _lay_over(shown, tuple(picture.picture_size), pixels_to_world(picture))
         lines = of(context.scene, picture)
         if lines:
             _paint(lines, pixels_to_world(picture), gpu.state.viewport_get()[2:])
@@ -52,27 +65,100 @@ def of(scene, picture) -> list[shapes.Lines]:
     stage, overlay = show.stage_of(scene, picture), scene.stillwater_overlay
     if stage is None or not stage.read or not picture.plane.visible_get():
         return []
-    active = picture.layers[picture.active_layer].name if picture.active_layer < len(picture.layers) else ""
-    wanted = tuple(name for name in type(overlay).__annotations__ if getattr(overlay, name))
-    size, frame = tuple(picture.picture_size), scene.frame_current
-    key = (picture.id, stage.reads, stage.taken, size, frame, active, wanted)
+    cut_out = cut_layer(scene, picture)
+    active = cut_out or (picture.layers[picture.active_layer].name if picture.active_layer < len(picture.layers) else "")
+    wanted = tuple(name for name in _lines_of(overlay) if getattr(overlay, name))
+    size, frame, number = tuple(picture.picture_size), scene.frame_current, _sketched(stage)
+    step = int(STEPS * time.monotonic()) % (2 * STEPS) if cut_out and overlay.outline else None
+    key = (picture.id, stage.reads, stage.taken, number, size, frame, active, wanted, step)
+    if step is not None and not bpy.app.timers.is_registered(march):
+        bpy.app.timers.register(march, first_interval=1 / STEPS)
     if key != _drawn[0]:
         subject = shapes.Subject(stage.read, size, frame, active, stage.live)
-        lines = [line for name in wanted for line in _made(name, subject, stage)]
+        lines = [line for name in wanted for line in _made(name, subject, stage, step)]
         _drawn = key, [line for line in lines if line.ends]
     return _drawn[1]
 
 
-def _made(name: str, subject: shapes.Subject, stage):
+def cut_layer(scene, picture) -> str:
+    """The name of the layer whose matte is being drawn; empty where none is."""
+    drawing = scene.stillwater.drawing
+    if not drawing.role or drawing.picture_id != picture.id or not roles.by_key(drawing.role).of.startswith("matte."):
+        return ""
+    layer = names.layer_by_id(picture, drawing.layer_id)
+    return layer.name if layer else ""
+
+
+def veil_of(scene, picture):
+    """What is laid over the picture while a matte is drawn, height x width x 4; None where nothing is.
+
+    With what it was made of, by which its texture is known.
+    """
+    stage, overlay, layer = show.stage_of(scene, picture), scene.stillwater_overlay, cut_layer(scene, picture)
+    if stage is None or not layer or not (overlay.tint or overlay.checker) or not picture.plane.visible_get():
+        return None
+    cut = cutting.cut(layer, stage.live, stage.sketch, picture.picture_size[0])
+    key = (stage.identifier, stage.taken, _sketched(stage), layer, overlay.checker)
+    return None if cut is None else (key, lambda: cutting.veil(cut.coverage, overlay.checker))
+
+
+def march() -> float | None:
+    """The outline goes on while a matte is drawn; called by a timer."""
+    for window in bpy.context.window_manager.windows:
+        picture = window.scene.stillwater.active()
+        if picture is not None and cut_layer(window.scene, picture):
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()
+            return 1 / STEPS
+    return None
+
+
+def _lines_of(overlay) -> list[str]:
+    """The switches that are of lines."""
+    return [name for name in type(overlay).__annotations__ if name not in ("tint", "checker")]
+
+
+def _sketched(stage) -> int:
+    return stage.sketch.number if stage.sketch is not None else 0
+
+
+def _made(name: str, subject: shapes.Subject, stage, step: int | None):
     if name != "outline":
         return getattr(shapes, name)(subject)
-    if subject.live is None or subject.active not in subject.live.layers:
+    cut = cutting.cut(subject.active, subject.live, stage.sketch, subject.size[0])
+    if cut is None:
         return []
-    key = (stage.identifier, stage.taken, subject.active)
+    key = (stage.identifier, stage.taken, _sketched(stage), subject.active)
     if key not in _outlines:
         _outlines.clear()
-        _outlines[key] = outline(subject.live.coverage(subject.active))
-    return shapes.outline(subject, _outlines[key])
+        _outlines[key] = outline(cut.coverage)
+    if step is None:
+        return shapes.outline(_outlines[key], cut.scale)
+    return shapes.marching(_outlines[key], cut.scale, DASH * max(subject.size), step / STEPS)
+
+
+def _lay_over(veil: tuple, size: tuple[int, int], matrix) -> None:
+    key, make = veil
+    if key not in _veils:
+        pixels = make()
+        _veils.clear()
+        buffer = gpu.types.Buffer("FLOAT", pixels.size, pixels.ravel())
+        _veils[key] = gpu.types.GPUTexture(pixels.shape[1::-1], format="RGBA16F", data=buffer)
+    width, height = size
+    corners = [(0, 0, 0), (width, 0, 0), (width, height, 0), (0, height, 0)]
+    shader = gpu.shader.from_builtin("IMAGE")
+    batch = batch_for_shader(
+        shader, "TRI_FAN", {"pos": corners, "texCoord": [(x / width, y / height) for x, y, _ in corners]}
+    )
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("NONE")
+    with gpu.matrix.push_pop():
+        gpu.matrix.multiply_matrix(matrix)
+        shader.bind()
+        shader.uniform_sampler("image", _veils[key])
+        batch.draw(shader)
+    gpu.state.blend_set("NONE")
 
 
 def _paint(lines: list[shapes.Lines], matrix, viewport: tuple[int, int]) -> None:

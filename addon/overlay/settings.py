@@ -26,7 +26,16 @@ class STILLWATER_PG_overlay(bpy.types.PropertyGroup):
         default=True, options=set(),
     )
     outline: BoolProperty(
-        name="Matte Outline", description="Around the active layer, at rest", default=True, options=set()
+        name="Matte Outline", description="Around the active layer, at rest; it marches while its matte is drawn",
+        default=True, options=set(),
+    )
+    tint: BoolProperty(
+        name="Matte Tint", description="While a matte is drawn, a color over all that is not part of its layer",
+        default=True, options=set(),
+    )
+    checker: BoolProperty(
+        name="Matte Checker", description="While a matte is drawn, a checkerboard instead of all that is not part of its layer",
+        default=False, options=set(),
     )
 
 

@@ -10,6 +10,7 @@ from math import cos, radians, sin, sqrt
 from .water import Point, WaterPlane, grid
 
 ORANGE, BLUE, YELLOW, WHITE = (1.0, 0.45, 0.05), (0.35, 0.7, 1.0), (1.0, 0.9, 0.4), (0.95, 0.95, 0.95)
+BLACK = (0.03, 0.03, 0.03)
 AWAY = 0.45  # how long a way away from the viewer is drawn, of one to the right
 PIECES = 24  # of a sway line
 STRONG, FAINT = 1.0, 0.45
@@ -107,11 +108,24 @@ def wind(subject: Subject) -> Iterator[Lines]:
     yield Lines(YELLOW, 1, ends, alphas)
 
 
-def outline(subject: Subject, lines) -> Iterator[Lines]:
-    """Lines of outline.outline(), of the active layer at the live picture's scale."""
-    scale = subject.live.scale
-    ends = [(x / scale, y / scale) for line in lines.tolist() for x, y in line]
+def outline(lines, scale: float) -> Iterator[Lines]:
+    """Lines of outline.outline(), of a matte that has `scale` pixels for one of the picture."""
+    ends = _ends(lines, scale)
     yield Lines(WHITE, 1.5, ends, [0.9] * len(ends))
+
+
+def marching(lines, scale: float, dash: float, step: float) -> Iterator[Lines]:
+    """The same in dashes of `dash` picture pixels, black and white, that have gone on by a share `step` of a dash."""
+    ends = _ends(lines, scale)
+    middles = [(ends[i][0] + ends[i + 1][0] + ends[i][1] + ends[i + 1][1]) / 2 for i in range(0, len(ends), 2)]
+    bright = [(middle / dash + step) % 2 < 1 for middle in middles]
+    for colour, shown in ((BLACK, False), (WHITE, True)):
+        part = [end for i, lit in enumerate(bright) if lit == shown for end in ends[2 * i : 2 * i + 2]]
+        yield Lines(colour, 1.5, part, [0.9] * len(part))
+
+
+def _ends(lines, scale: float) -> list[Point]:
+    return [(x / scale, y / scale) for line in lines.tolist() for x, y in line]
 
 
 def _moving(subject: Subject, kind: str) -> list[dict]:

@@ -7,11 +7,11 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 
-from .. import engine, versions
+from .. import engine, strokes, versions
 from ..bake import job, places
 from ..compositor import tree as node
 from ..properties import arrange, image
-from ..recipe.read import NoPlace, fill_picture, refuse
+from ..recipe.read import NoPlace, fill_picture, refuse, strokes_of
 from ..ui import polls
 from . import place
 from . import scene as settings
@@ -46,6 +46,8 @@ def open_recipe(scene, path: Path):
     image.follow(picture)
     place.ensure(scene, picture)
     _use_time(scene, recipe)
+    for layer, part in zip(picture.layers, recipe["layers"], strict=True):
+        strokes.lay_down(scene, picture, layer.id, strokes_of(part))
     frames = places.locate_in(places.frames_of(picture))(".")
     node.describe(node.ensure(scene, picture), scene, picture, frames, job.layers_alone(picture))
     return picture

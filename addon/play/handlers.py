@@ -3,7 +3,10 @@
 import bpy
 from bpy.app.handlers import persistent
 
+from ..strokes import draw_mode
 from . import plane, recipes, server, show
+
+LIFTED = 0.02  # s, between two looks at whether the pen was lifted
 
 _rendering = False
 _stale = True  # something changed since the recipes were last looked at
@@ -37,9 +40,24 @@ def something_changed(scene, depsgraph=None):
     if any(isinstance(datablock, bpy.types.Action) for datablock in changed):
         recipes.forget_curves()
     _stale = True
-    if not _playing():
+    if draw_mode.pen_is_down():
+        if not bpy.app.timers.is_registered(pen_lifted):
+            bpy.app.timers.register(pen_lifted, first_interval=LIFTED)
+    elif not _playing():
         _stale = False
         show.scene(scene)
+
+
+def pen_lifted() -> float | None:
+    """Once a stroke is whole, what it says is shown; called by a timer."""
+    global _stale
+    if draw_mode.pen_is_down():
+        return LIFTED
+    if not _playing() and not _rendering and _stale:
+        _stale = False
+        for window in bpy.context.window_manager.windows:
+            show.scene(window.scene)
+    return None
 
 
 @persistent
@@ -121,7 +139,8 @@ def unregister():
     for name, handler in reversed(HANDLERS):
         getattr(bpy.app.handlers, name).remove(handler)
     show.put_back()
-    if bpy.app.timers.is_registered(plane.rest):
-        bpy.app.timers.unregister(plane.rest)
+    for timer in (plane.rest, pen_lifted):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
     server.end()
     show.forget()

@@ -20,6 +20,7 @@ class STILLWATER_PG_live(bpy.types.PropertyGroup):
             ("picture", "Picture", "All layers in motion"),
             ("layer", "Layer", "The active layer alone"),
             ("matte", "Matte", "How much of each pixel the active layer covers, in gray"),
+            ("behind", "Behind", "What is behind the active layer: the picture without it and all before it, filled"),
             ("original", "Original", "The picture as it was opened, to compare"),
         ],
     )

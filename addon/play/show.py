@@ -3,7 +3,9 @@
 import bpy
 
 from .. import engine, preferences
-from . import plane, recipes
+from ..properties import names
+from . import plane, recipes, server
+from .draft import behind, solved_matte
 from .stage import Stage, moves
 
 _stages: dict[tuple[int, str], Stage] = {}  # by the scene's session_uid and the picture's id
@@ -89,23 +91,37 @@ def _show(shown, picture, stage: Stage, refresh: bool) -> None:
     if not wanted or picture.plane is None or picture.image is None:
         _clear(picture, stage)
         return
-    stage.rests = settings.view == "picture" and not moves(stage.read)
-    if not stage.rests:
+    view, active = settings.view, _active(shown, picture)
+    if shown.stillwater.drawing.role:
+        server.wake()
+    stage.rests = view == "picture" and not moves(stage.read)
+    if not stage.rests or solved_matte(stage.read, active):
         chosen = preferences.of(bpy.context)
-        stage.take(stage.read, stage.folder, chosen.preview_size, chosen.cache())
-    layer = _layer(picture, settings.view)
-    if stage.rests or stage.problem or stage.live is None or layer not in (None, *stage.live.layers):
+        recipe = behind(stage.read, active) if view == "behind" else stage.read
+        stage.take(recipe, stage.folder, chosen.preview_size, chosen.cache(), active)
+    layer = _layer(picture, view)
+    wrong = stage.problem and not (stage.drafted and view != "picture")
+    if stage.rests or wrong or stage.live is None or layer not in (None, *stage.live.layers):
         _clear(picture, stage)
         return
-    what = (stage.taken, shown.frame_current, layer, settings.view)
+    what = (stage.taken, shown.frame_current, layer, view)
     if what != stage.shown or not plane.shows(picture):
-        plane.show(picture, stage.live.frame(shown.frame_current, layer, matte=settings.view == "matte"))
+        plane.show(picture, stage.live.frame(shown.frame_current, layer, matte=view == "matte"))
         stage.shown = what
 
 
+def _active(shown, picture) -> str:
+    """The name of the layer that is drawn on, or else of the active one."""
+    drawing = shown.stillwater.drawing
+    drawn = names.layer_by_id(picture, drawing.layer_id) if drawing.role and drawing.picture_id == picture.id else None
+    if drawn is not None:
+        return drawn.name
+    return picture.layers[picture.active_layer].name if picture.active_layer < len(picture.layers) else ""
+
+
 def _layer(picture, view: str) -> str | None:
-    """The name of the layer that is shown alone; None where all are."""
-    if view == "picture" or picture.active_layer >= len(picture.layers):
+    """The name of the layer that is shown alone; None where all are, or all behind it."""
+    if view in ("picture", "behind") or picture.active_layer >= len(picture.layers):
         return None
     return picture.layers[picture.active_layer].name
 

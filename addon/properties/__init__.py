@@ -2,9 +2,9 @@
 
 import bpy
 
-from . import drawing, layer, motions, picture
+from . import cut_out, drawing, layer, motions, picture
 
-CLASSES = [*motions.CLASSES, *layer.CLASSES, *drawing.CLASSES, *picture.CLASSES]
+CLASSES = [*motions.CLASSES, *cut_out.CLASSES, *layer.CLASSES, *drawing.CLASSES, *picture.CLASSES]
 
 
 def register():

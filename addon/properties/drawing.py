@@ -13,6 +13,7 @@ class STILLWATER_PG_drawing(bpy.types.PropertyGroup):
     placement: StringProperty(options={"HIDDEN"})
     lock_axis: StringProperty(options={"HIDDEN"})
     auto_key: BoolProperty(options={"HIDDEN"})
+    new_layer: BoolProperty(options={"HIDDEN"})  # of a layer that was made for it: one stroke, and it is done
     shelf: BoolProperty(options={"HIDDEN"})  # viewports showed the shelf of brushes
 
 

@@ -1,44 +1,11 @@
 """One layer of a picture: its matte, what is behind it, whom it follows, how it moves."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, PointerProperty, StringProperty
 
 from . import names
+from .cut_out import STILLWATER_PG_fill, STILLWATER_PG_matte
 from .motions import STILLWATER_PG_motion
-
-
-class STILLWATER_PG_matte(bpy.types.PropertyGroup):
-    """How much of each pixel belongs to the layer."""
-
-    form: EnumProperty(
-        name="Matte", description="What says which part of the picture the layer is", default="none", options=set(),
-        items=[
-            ("none", "None", "The whole picture: for the last layer, the background"),
-            ("file", "File", "An image: one channel, or gray"),
-            ("labels", "Labels", "All pixels of a label map that have one value"),
-        ],
-    )
-    file: StringProperty(name="File", description="Image with the matte", subtype="FILE_PATH", options=names.PATH)
-    channel: StringProperty(
-        name="Channel", description="Channel of the image; its gray where it has no such channel",
-        default="A", maxlen=255, options=set(),
-    )
-    labels: StringProperty(name="Labels", description="Label map", subtype="FILE_PATH", options=names.PATH)
-    value: IntProperty(name="Value", description="Label of this layer", default=1, min=0, soft_max=255, options=set())
-
-
-class STILLWATER_PG_fill(bpy.types.PropertyGroup):
-    """What fills the hole behind the layer."""
-
-    method: EnumProperty(
-        name="Fill", description="What fills the hole behind the layer", default="exemplar", options=set(),
-        items=[
-            ("exemplar", "Exemplar", "Pieces of the picture itself"),
-            ("file", "File", "A painted background"),
-            ("none", "None", "Nothing: transparent behind"),
-        ],
-    )
-    file: StringProperty(name="File", description="Painted background", subtype="FILE_PATH", options=names.PATH)
 
 
 class STILLWATER_PG_follows(bpy.types.PropertyGroup):
@@ -95,4 +62,4 @@ class STILLWATER_PG_layer(bpy.types.PropertyGroup):
         return self.visible and (self.solo or not solo)
 
 
-CLASSES = [STILLWATER_PG_matte, STILLWATER_PG_fill, STILLWATER_PG_follows, STILLWATER_PG_layer]
+CLASSES = [STILLWATER_PG_follows, STILLWATER_PG_layer]

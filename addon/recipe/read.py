@@ -12,6 +12,7 @@ Locate = Callable[[str], str]  # a path as the recipe has it -> as Blender keeps
 SetCurve = Callable[[str, int, int, list], None]  # path, index, first frame, a value for each frame
 WIDEST = 2**31 - 1  # Blender's whole numbers
 MOTIONS = ("still", "sway", "ripple", "bob", "drift")
+FORMS = ("file", "labels", "scribbles", "lasso", "trimap")
 
 
 class NoPlace(ValueError):
@@ -49,15 +50,14 @@ def refuse(recipe: dict) -> None:
     seeds = {"seed": recipe["seed"], "wind.seed": recipe["wind"]["seed"]}
     for i, layer in enumerate(recipe["layers"]):
         place, matte, fill, motion = f"layers[{i}]", layer["matte"], layer["fill"], layer["motion"]
-        if matte is not None and not {"file", "labels"} & set(matte):
-            raise NoPlace("{place}.matte: only the forms file and labels can be opened in Blender yet", place=place)
         if motion["type"] not in MOTIONS:
             sentence = '{place}.motion.type: "{motion}" can\'t be opened in Blender yet'
             raise NoPlace(sentence, place=place, motion=motion["type"])
-        plain_fill = {"method": "exemplar", "patch": 9, "radius": None, "grow": 2.0, "source": None, "touch_up": []}
-        if fill.get("method") == "exemplar" and {**plain_fill, **fill} != plain_fill:
-            raise NoPlace("{place}.fill: numbers of an exemplar fill can't be opened in Blender yet", place=place)
         seeds[f"{place}.motion.seed"] = motion.get("seed")
+        for part, said in ((f"{place}.matte", matte or {}), (f"{place}.fill.source", fill.get("source") or {})):
+            seeds[f"{part}.value"] = said.get("value")
+        for j, touch_up in enumerate(fill.get("touch_up", ())):
+            seeds[f"{place}.fill.touch_up[{j}].seed"] = touch_up["seed"] + 1  # 0 is kept for none of its own
     for place, seed in seeds.items():
         if seed is not None and seed > WIDEST:
             sentence = "{place}: {seed} is above what Blender can hold ({widest})"
@@ -100,15 +100,47 @@ def _layer(layer, part: dict, locate: Locate, writer: _Writer) -> None:
     writer.fields(layer, part, but=("name", "follows", "matte", "fill", "motion"))
     if part["follows"] is not None:
         writer.fields(layer.follows, part["follows"])
-    matte = part["matte"]
-    if matte is not None:
-        layer.matte.form = "file" if "file" in matte else "labels"
-        writer.fields(layer.matte, {**matte, layer.matte.form: locate(matte[layer.matte.form])})
+    _matte(layer.matte, part["matte"], locate, writer)
     fill = part["fill"]
     layer.fill.method = fill.get("method", "file")
     if "file" in fill:
         layer.fill.file = locate(fill["file"])
+    if layer.fill.method == "exemplar":
+        writer.fields(layer.fill, fill, but=("method", "source", "touch_up"))
+        _matte(layer.fill.source, fill["source"], locate, writer)
+        if usual := _usual_touch_up(fill["touch_up"]):
+            layer.fill.touch_up_radius, layer.fill.touch_up_seed = usual["radius"] or 0, usual["seed"]
     _motion(layer.motion, part["motion"], writer)
+
+
+def _matte(matte, said: dict | None, locate: Locate, writer: _Writer) -> None:
+    """What is drawn of it comes later (strokes_of)."""
+    if said is None:
+        return
+    matte.form = next(form for form in FORMS if form in said)
+    located = {matte.form: locate(said[matte.form])} if matte.form in ("file", "labels", "trimap") else {}
+    writer.fields(matte, {**said, **located}, but=("scribbles", "lasso"))
+
+
+def strokes_of(part: dict) -> dict[str, list]:
+    """What is drawn of a recipe's layer, by the keys of strokes/roles.py. A touch-up without a number has its layer's."""
+    fill = part["fill"]
+    found = {**_drawn(part["matte"], ""), **_drawn(fill.get("source"), "source_")}
+    touched, usual = fill.get("touch_up") or [], _usual_touch_up(fill.get("touch_up"))
+    found["touch_up"] = [{"stroke": each["stroke"]} for each in touched] if usual else touched
+    return {key: strokes for key, strokes in found.items() if strokes}
+
+
+def _drawn(matte: dict | None, prefix: str) -> dict[str, list]:
+    matte = matte or {}
+    scribbles = {f"{prefix}{kind}": strokes for kind, strokes in matte.get("scribbles", {}).items()}
+    return {**scribbles, f"{prefix}outline": [list(corner) for corner in matte.get("lasso", ())]}
+
+
+def _usual_touch_up(touched: list | None) -> dict | None:
+    """The numbers that all touch-ups of a fill have in common, where they do."""
+    numbers = [{name: each[name] for name in ("radius", "seed")} for each in touched or ()]
+    return numbers[0] if numbers and all(each == numbers[0] for each in numbers) else None
 
 
 def _motion(motion, part: dict, writer: _Writer) -> None:

@@ -93,19 +93,47 @@ def _layer(picture, layer, animation: Animation, locate: Locate, drawn: Drawn) -
     return {
         **_fields(layer, animation, but=("id", "selected", "solo", "follows", "matte", "fill", "motion")),
         **_given("follows", followed and {"layer": followed, "mirror": layer.follows.mirror}),
-        **_given("matte", _matte(layer.matte, locate)),
-        "fill": {"file": locate(layer.fill.file)} if layer.fill.method == "file" else {"method": layer.fill.method},
+        **_given("matte", _matte(layer.matte, layer.id, locate, drawn)),
+        "fill": _fill(layer.fill, layer.id, locate, drawn),
         "motion": _motion(layer, animation, drawn),
     }
 
 
-def _matte(matte, locate: Locate) -> dict | None:
+def _matte(matte, layer_id: str, locate: Locate, drawn: Drawn, prefix: str = "") -> dict | None:
+    """None also where what must be drawn of it is not drawn yet. `prefix`: of the keys of its strokes' roles."""
+    method = {"method": matte.method}
     match matte.form:
         case "file":
             return {"file": locate(matte.file), "channel": matte.channel}
         case "labels":
             return {"labels": locate(matte.labels), "value": matte.value}
+        case "trimap":
+            return {"trimap": locate(matte.trimap), **method}
+        case "scribbles":
+            scribbles = {kind: drawn(layer_id, prefix + kind) for kind in ("foreground", "background")}
+            return {"scribbles": scribbles, **method} if all(scribbles.values()) else None
+        case "lasso":
+            outline = drawn(layer_id, f"{prefix}outline")
+            numbers = {name: plain(getattr(matte, name)) for name in ("feather", "snap")}
+            return {"lasso": outline, **numbers, **method} if outline else None
     return None
+
+
+def _fill(fill, layer_id: str, locate: Locate, drawn: Drawn) -> dict:
+    if fill.method == "file":
+        return {"file": locate(fill.file)}
+    if fill.method == "none":
+        return {"method": "none"}
+    usual = {"radius": plain(fill.touch_up_radius) or None, "seed": fill.touch_up_seed}
+    touched = [{**usual, **stroke} for stroke in drawn(layer_id, "touch_up") or ()]
+    return {
+        "method": "exemplar",
+        "patch": fill.patch,
+        **_given("radius", plain(fill.radius)),
+        "grow": plain(fill.grow),
+        **_given("source", _matte(fill.source, layer_id, locate, drawn, "source_")),
+        **_given("touch_up", touched),
+    }
 
 
 def _motion(layer, animation: Animation, drawn: Drawn) -> dict:

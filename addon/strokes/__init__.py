@@ -6,21 +6,25 @@
     gp_layers                which grease-pencil layer holds which layer's strokes of which role
     draw_mode, operators     drawing and deleting them
     change                   giving them another role
+    lay                      from the recipe back to strokes
     panel                    its buttons, and the tool in the toolbar
 
-Others use drawn(), replaced(), copy_roles() and remove_roles().
+Others use drawn(), replaced(), cut_out(), lay_down(), copy_roles() and remove_roles().
 """
+
+from functools import cache
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..properties import names
-from . import draw_mode, gp_layers, operators, panel, read, roles
+from . import draw_mode, gp_layers, lay, operators, panel, read, roles
 
 CLASSES = [*operators.CLASSES, *panel.CLASSES]
 
 copy_roles = gp_layers.copy  # (picture, from_id, to_id): a duplicated layer gets strokes of its own
 remove_roles = gp_layers.remove  # (picture, layer_id): before a layer goes
+lay_down = lay.down  # (scene, picture, layer_id, strokes by the keys of their roles, as the recipe has them)
 
 
 def drawn(scene, picture):
@@ -29,9 +33,11 @@ def drawn(scene, picture):
     Asking throws ValueError with a sentence where strokes can't be read.
     """
 
+    seen = cache(lambda: read.projection_of(picture))
+
     def geometry(layer_id: str, key: str):
         role = roles.by_key(key)
-        return role.geometry(read.strokes(scene, picture, layer_id, role))
+        return role.geometry(read.strokes(scene, picture, layer_id, role, seen))
 
     return geometry
 
@@ -39,9 +45,16 @@ def drawn(scene, picture):
 def replaced(scene, picture, layer=None) -> set[str]:
     """The names of the numbers that strokes stand for: of the picture's view, and of the layer's motion."""
     owned = [("", role) for role in roles.of_motion("")]
-    owned += [(layer.id, role) for role in roles.of_motion(layer.motion.type)] if layer else []
+    owned += [(layer.id, role) for role in roles.of_layer(layer)] if layer else []
     there = [role for layer_id, role in owned if read.is_drawn(scene, picture, layer_id, role)]
     return {name for role in there for name in role.replaces}
+
+
+def cut_out(scene, picture, layer) -> dict[str, list]:
+    """What is drawn of a layer's matte and fill, as lay_down() takes it. Throws ValueError as drawn() does."""
+    geometry = drawn(scene, picture)
+    said = {role.key: geometry(layer.id, role.key) for role in roles.of_layer(layer) if role.of}
+    return {key: strokes for key, strokes in said.items() if strokes}
 
 
 @persistent

@@ -12,11 +12,14 @@ import numpy as np
 
 from .. import versions
 from ..properties import names
-from . import control_points, gp_layers, roles
+from . import control_points, gp_layers, read, roles
 
 MODE = "PAINT_GREASE_PENCIL"
 INTERVAL = 0.25  # s
 TOOL = "stillwater.stroke"
+BRUSH = "GREASE_PENCIL_OT_brush_stroke"
+
+finished = []  # called with scene, picture, layer and role when a layer's strokes are drawn; rooms add themselves
 
 _before: dict[int, tuple] = {}  # by the session_uid of a scene that has our tool settings: its own
 _shelves: dict[int, bool] = {}  # by the session_uid of a scene whose viewports have no shelf: whether one had it
@@ -33,6 +36,7 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     layer_id = layer.id if layer is not None else ""
     part = gp_layers.ensure(picture, layer_id, role)
     part.hide = part.lock = False
+    gp_layers.fade(picture, layer_id if role.of else "")
     gp_layers.ensure_key(part, role, scene.frame_current if role.keyed else min(scene.frame_current, scene.frame_start))
     holder.data.layers.active = part
     holder.active_material_index = gp_layers.material(holder.data, role)
@@ -40,6 +44,7 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     holder.select_set(True)
     drawing = scene.stillwater.drawing
     drawing.role, drawing.picture_id, drawing.layer_id = role.key, picture.id, layer_id
+    drawing.new_layer = False
     drawing.placement, drawing.lock_axis, drawing.auto_key = _settings(scene)
     drawing.shelf = False
     bpy.ops.object.mode_set(mode=MODE)
@@ -56,13 +61,20 @@ def finish(scene) -> None:
             _keep_last(part)
     if _is_drawing(scene):
         bpy.ops.object.mode_set(mode="OBJECT")
+    layer = names.layer_by_id(picture, drawing.layer_id) if picture is not None and drawing.new_layer else None
     leave(scene)
+    if layer is not None:
+        for follow in finished:
+            follow(scene, picture, layer, role)
 
 
 def leave(scene) -> None:
     """Says that nothing is being drawn any more."""
     if scene.stillwater.drawing.role:
-        scene.stillwater.drawing.role = ""
+        picture, _ = drawn(scene)
+        if picture is not None:
+            gp_layers.fade(picture)
+        scene.stillwater.drawing.role, scene.stillwater.drawing.new_layer = "", False
         look_after()
 
 
@@ -100,9 +112,30 @@ def tick() -> float | None:
     for scene in bpy.data.scenes:
         if scene.stillwater.drawing.role and not _is_drawing(scene):
             leave(scene)
+        elif scene.stillwater.drawing.new_layer and _has_one(scene):
+            finish(scene)
+            bpy.ops.ed.undo_push(message="New Layer from Outline")
         elif scene.stillwater.drawing.role and scene.session_uid not in _shelves:
             _take_shelf_away(scene)
     return INTERVAL if any(scene.stillwater.drawing.role for scene in bpy.data.scenes) else None
+
+
+def _has_one(scene) -> bool:
+    """Whether a stroke is there that says something, and the pen is up."""
+    picture, role = drawn(scene)
+    drawing = scene.stillwater.drawing
+    if picture is None or not role.one or pen_is_down():
+        return False
+    try:
+        return role.geometry(read.strokes(scene, picture, drawing.layer_id, role)) is not None
+    except ValueError:
+        return False
+
+
+def pen_is_down() -> bool:
+    """Whether a stroke is just being drawn."""
+    windows = bpy.context.window_manager.windows
+    return any(operator.bl_idname == BRUSH for window in windows for operator in window.modal_operators)
 
 
 def stop() -> None:

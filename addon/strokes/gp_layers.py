@@ -12,6 +12,7 @@ from . import roles
 
 ATTRIBUTE = "stillwater"
 HALF = 24  # bits of an id in each number
+FAINT = 0.12  # opacity of strokes that cut layers out, while none of the layer's are drawn
 
 
 def data_of(picture):
@@ -58,6 +59,15 @@ def remove(picture, layer_id: str) -> None:
     for role in roles.ROLES:
         for part in of(picture, layer_id, role):
             data_of(picture).layers.remove(part)
+
+
+def fade(picture, layer_id: str = "") -> None:
+    """Lets the strokes that cut a layer out be seen well, those of the others faintly: there are many of them."""
+    for part, mark in _marked(picture):
+        if mark is not None and mark[1].of:
+            opacity = 1.0 if mark[0] == layer_id else FAINT
+            if abs(part.opacity - opacity) > 1e-3:
+                part.opacity = opacity
 
 
 def follow_names(picture) -> None:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 DIGITS = 3  # written of a pixel
+THINNEST, WIDEST = 10.0**-DIGITS, 16384.0  # px: the recipe's
+ANYWHERE = -1.0  # radius of a stroke's own
 
 
 @dataclass(frozen=True)
@@ -14,6 +16,8 @@ class Stroke:
     points: np.ndarray  # (n, 2), px from the picture's top left corner, y down
     widths: np.ndarray  # (n,), px: where the pen was pressed harder it is wider
     frame: int  # of the key that holds its drawing
+    radius: float = 0  # px, its own, of a touch-up; 0 = the layer's
+    seed: int = 0  # its own and 1; 0 = the layer's
 
     @property
     def length(self) -> float:
@@ -54,14 +58,45 @@ def straight_line(strokes: list[Stroke]) -> list | None:
     return _written(middle + np.outer([along.min(), along.max()], direction))
 
 
+def polygon(strokes: list[Stroke]) -> list | None:
+    """The corners of the last outline drawn, which closes by itself; None where there is none that encloses anything."""
+    for stroke in reversed(strokes):
+        points = stroke.points
+        if len(points) > 1 and np.allclose(points[0], points[-1], atol=10**-DIGITS):
+            points = points[:-1]
+        if len(points) > 2 and _area(points) > 0:
+            return _written(points)
+    return None
+
+
+def all_strokes(strokes: list[Stroke]) -> list | None:
+    """Every stroke, dabs too; None where there is none."""
+    return [with_pressure(stroke) for stroke in strokes] or None
+
+
+def touch_ups(strokes: list[Stroke]) -> list | None:
+    """Every stroke with the radius and the seed that are its own; None where there is none."""
+    return [{"stroke": with_pressure(stroke), **_own(stroke)} for stroke in strokes] or None
+
+
+def _own(stroke: Stroke) -> dict:
+    radius = None if stroke.radius < 0 else round(stroke.radius, DIGITS)
+    return {**({"radius": radius} if stroke.radius else {}), **({"seed": stroke.seed - 1} if stroke.seed else {})}
+
+
 def with_pressure(stroke: Stroke) -> dict:
     """The recipe's stroke: its width where it is widest, and a pressure for each point where it varies."""
-    width = float(stroke.widths.max())
+    width = float(np.clip(stroke.widths.max(), THINNEST, WIDEST))
     points = _written(stroke.points)
-    if width > 0 and np.ptp(stroke.widths) > 1e-4 * width:
-        pressures = np.round(stroke.widths / width, DIGITS).tolist()
+    if np.ptp(stroke.widths) > 1e-4 * width:
+        pressures = np.round(np.clip(stroke.widths / width, 0, 1), DIGITS).tolist()
         points = [[*point, pressure] for point, pressure in zip(points, pressures, strict=True)]
     return {"points": points, "width": round(width, DIGITS)}
+
+
+def _area(points: np.ndarray) -> float:
+    (x, y), (x1, y1) = points.T, np.roll(points, -1, axis=0).T
+    return abs(float((x * y1 - x1 * y).sum())) / 2
 
 
 def _last_line(strokes: list[Stroke]) -> Stroke | None:

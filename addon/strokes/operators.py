@@ -38,18 +38,31 @@ class OfRole:
 
     def layer_of(self, picture, role: roles.Role):
         """The layer that is meant; None for a role of the picture itself. Throws ValueError where none has it."""
-        if not role.motion:
+        if not roles.is_of_layer(role):
             return None
         index = picture.layers.find(self.layer) if self.layer else picture.active_layer
         if not 0 <= index < len(picture.layers):
             sentence = rpt_("{layer}: {picture} has no such layer")
             raise ValueError(sentence.format(layer=self.layer or rpt_("Active layer"), picture=picture.name))
         layer = picture.layers[index]
-        if layer.motion.type != role.motion:
-            sentence = rpt_("{layer}: only a layer with the motion {motion} has a {role}")
-            motion = rpt_(role.motion.title())
-            raise ValueError(sentence.format(layer=layer.name, motion=motion, role=rpt_(role.name)))
+        if not roles.has(layer, role) and not roles.begins(layer, role):
+            raise ValueError(_not_its_role(layer, role))
         return layer
+
+
+def _not_its_role(layer, role: roles.Role) -> str:
+    what, _, form = role.of.partition(".")
+    if not what:
+        sentence = rpt_("{layer}: only a layer with the motion {motion} has a {role}")
+        return sentence.format(layer=layer.name, motion=rpt_(role.motion.title()), role=rpt_(role.name))
+    if what == "fill" or layer.fill.method != "exemplar" and what == "source":
+        sentence = rpt_("{layer}: only a layer whose Fill is Exemplar has a {role}")
+        return sentence.format(layer=layer.name, role=rpt_(role.name))
+    group = layer.matte if what == "matte" else layer.fill.source
+    kind = group.bl_rna.properties["form"].enum_items[form].name
+    sentence = rpt_("{layer}: only a layer whose {what} is {kind} has a {role}")
+    named = {"matte": rpt_("Matte"), "source": rpt_("Source")}[what]
+    return sentence.format(layer=layer.name, what=named, kind=rpt_(kind), role=rpt_(role.name))
 
 
 class STILLWATER_OT_draw_stroke(OfRole, bpy.types.Operator):
@@ -70,7 +83,11 @@ class STILLWATER_OT_draw_stroke(OfRole, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def do(self, context, picture, layer, role):
+        if layer is not None:
+            roles.begin(layer, role)
         draw_mode.enter(context, picture, layer, role)
+        if role.of.startswith("fill."):  # that is where it is seen
+            context.scene.stillwater_live.view = "behind"
         return {"FINISHED"}
 
 
@@ -111,6 +128,8 @@ class STILLWATER_OT_change_role(OfRole, bpy.types.Operator):
         return True
 
     def do(self, context, picture, layer, role):
+        if layer is not None:
+            roles.begin(layer, role)
         part = gp_layers.ensure(picture, layer.id if layer else "", role)
         if part.hide or part.lock:
             raise ValueError(rpt_("{name}: is hidden or locked; show and unlock it first").format(name=part.name))

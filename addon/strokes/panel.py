@@ -19,10 +19,17 @@ class _Strokes(sidebar.OfPicture):
             sidebar.say(context, layout, draw_mode.hint(context.scene), "INFO")
         layer = picture.layers[picture.active_layer] if picture.active_layer < len(picture.layers) else None
         column = layout.column(align=True)
-        for role in [*(roles.of_motion(layer.motion.type) if layer else ()), *roles.of_motion("")]:
-            _draw_role(context, column, picture, layer if role.motion else None, role)
+        for role in [*(_offered(picture, layer) if layer else ()), *roles.of_motion("")]:
+            _draw_role(context, column, picture, layer if roles.is_of_layer(role) else None, role)
         if context.mode == "EDIT_GREASE_PENCIL":
             layout.operator_menu_enum("stillwater.change_role", "role")
+
+
+def _offered(picture, layer) -> list[roles.Role]:
+    """The roles that a layer has, and those that would cut it out where it must be; touch-ups once there is a hole."""
+    last = layer == picture.layers[-1]
+    offered = [role for role in roles.of_layer(layer) if role.of != "fill.exemplar" or layer.matte.form != "none"]
+    return offered if last else [role for role in roles.ROLES if role in offered or roles.begins(layer, role)]
 
 
 def _draw_role(context, layout, picture, layer, role: roles.Role) -> None:

@@ -4,6 +4,8 @@ A hidden object or grease-pencil layer does not count, nor do the object's modif
 their key on reads every key; any other reads the drawing that the scene's first frame shows.
 """
 
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -15,28 +17,29 @@ from .lines import Stroke
 from .roles import Role
 
 TOLERANCE = 0.01  # px that a polyline may leave its curve by where that saves points
+RADIUS, SEED = "stillwater_radius", "stillwater_seed"  # attributes of a curve: a touch-up's own
 
 
-def strokes(scene, picture, layer_id: str, role: Role) -> list[Stroke]:
+def strokes(scene, picture, layer_id: str, role: Role, seen: Callable | None = None) -> list[Stroke]:
     """All strokes of one role, in the order in which they lie upon each other.
 
-    Throws ValueError with a sentence where the picture has no plane, or a stroke is out of its camera's sight.
+    `seen`: gives projection_of(picture), where that is known already. Throws ValueError with a sentence where the picture has no plane, or a stroke is out of its camera's sight.
     """
     found = []
     for part, keys in _shown(scene, picture, layer_id, role):
-        seen = _projection(picture)
+        projected = seen() if seen is not None else projection_of(picture)
         try:
             for key in keys:
-                found += _in_drawing(picture.strokes, part, key, seen)
+                found += _in_drawing(picture.strokes, part, key, projected)
         except ValueError as error:
             raise ValueError(rpt_("{name}: a stroke {error}").format(name=part.name, error=rpt_(str(error)))) from error
     return found
 
 
 def is_drawn(scene, picture, layer_id: str, role: Role) -> bool:
-    """Whether there is a line of this role; so cheap that panels may ask."""
+    """Whether there is a stroke that says something; so cheap that panels may ask."""
     drawings = [key.drawing for _, keys in _shown(scene, picture, layer_id, role) for key in keys]
-    return any(np.any(np.diff(control_points.offsets_of(drawing)) > 1) for drawing in drawings)
+    return any(np.any(np.diff(control_points.offsets_of(drawing)) >= role.points) for drawing in drawings)
 
 
 def _shown(scene, picture, layer_id: str, role: Role):
@@ -57,7 +60,8 @@ def _is_visible(part) -> bool:
     return part is None
 
 
-def _projection(picture) -> projection.Projection:
+def projection_of(picture) -> projection.Projection:
+    """From the scene onto the picture. Throws ValueError where there is no plane, or it is seen from its edge."""
     pixels = np.array(plane.pixels_to_world(picture))
     try:
         return projection.onto_picture(pixels, _eye(picture.camera))
@@ -83,11 +87,20 @@ def _in_drawing(holder, part, key, seen: projection.Projection) -> list[Stroke]:
     finest = place(curves.points)[1].max(initial=0) * np.linalg.norm(to_world[:3, :3], 2)  # px for a unit of its space
     offsets, points = evaluate(curves, TOLERANCE / finest if finest else 0)
     pixels, scale = place(points)
-    # Blender scales what it draws by the object, not by the layer.
-    size = np.linalg.norm(np.array(holder.matrix_world)[:3, :3].sum(axis=1)) / np.sqrt(3)
-    widths = np.maximum(2 * (points[:, 3] + part.radius_offset) * size * scale, 0)
-    ends = zip(offsets[:-1], offsets[1:], strict=True)
-    return [Stroke(pixels[a:b], widths[a:b], key.frame_number) for a, b in ends if b > a]
+    widths = np.maximum(2 * (points[:, 3] + part.radius_offset) * size_of(holder) * scale, 0)
+    own = zip(offsets[:-1], offsets[1:], *(_own(key.drawing, name, len(offsets) - 1) for name in (RADIUS, SEED)), strict=True)
+    return [Stroke(pixels[a:b], widths[a:b], key.frame_number, radius, seed) for a, b, radius, seed in own if b > a]
+
+
+def size_of(holder) -> float:
+    """By how much Blender scales the widths that it draws: by the object's scale, not by the layer's."""
+    return float(np.linalg.norm(np.array(holder.matrix_world)[:3, :3].sum(axis=1)) / np.sqrt(3))
+
+
+def _own(drawing, name: str, count: int) -> list:
+    """A number that each curve has of its own, 0 where it has none."""
+    kept = drawing.attributes.get(name)
+    return [item.value for item in kept.data] if kept is not None and kept.domain == "CURVE" else [0] * count
 
 
 def layer_to_world(holder, part):

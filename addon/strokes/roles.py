@@ -13,7 +13,7 @@ class Role:
     key: str
     number: int  # kept in .blend files: never given to another role
     name: str
-    motion: str  # of the layers that have it; "" = the picture itself has it
+    motion: str  # of the layers that have it; "" = the picture itself, or all layers where `of` says of what
     replaces: tuple[str, ...]  # the numbers that strokes stand for, of the motion or of the view
     colour: tuple[float, float, float]
     icon: str
@@ -21,6 +21,8 @@ class Role:
     one: bool  # a new stroke replaces the former
     keyed: bool  # strokes hold from the key on in which they are drawn; else one drawing holds all the time
     geometry: Callable  # strokes -> what the recipe has for them, None where they say nothing
+    of: str = ""  # what of a layer they say, and its form: "matte.scribbles", "fill.exemplar", "source.lasso"
+    points: int = 2  # a stroke with fewer says nothing
     is_typed: Callable = lambda numbers: False  # whether the numbers that strokes stand for say it as well
 
 
@@ -43,6 +45,42 @@ ROLES = (
         colour=(1.0, 0.1, 0.7), icon="REMOVE", one=True, keyed=False, geometry=lines.straight_line,
         hint="Draw along the horizon, where the water would end; a new line replaces the former",
     ),
+    Role(
+        key="foreground", number=4, name="Foreground", motion="", of="matte.scribbles", replaces=("foreground",),
+        colour=(0.1, 0.9, 0.25), icon="ADD", one=False, keyed=False, geometry=lines.all_strokes, points=1,
+        hint="Draw on what is part of the layer: a few short strokes, one over each of its colors",
+    ),
+    Role(
+        key="background", number=5, name="Background", motion="", of="matte.scribbles", replaces=("background",),
+        colour=(0.95, 0.1, 0.1), icon="REMOVE", one=False, keyed=False, geometry=lines.all_strokes, points=1,
+        hint="Draw on what is not part of the layer: a few short strokes around it",
+    ),
+    Role(
+        key="outline", number=6, name="Outline", motion="", of="matte.lasso", replaces=("outline",),
+        colour=(1.0, 0.85, 0.1), icon="MOD_OUTLINE", one=True, keyed=False, geometry=lines.polygon, points=3,
+        hint="Draw once around the layer; it closes by itself, and a new outline replaces the former",
+    ),
+    Role(
+        key="touch_up", number=7, name="Touch-Up", motion="", of="fill.exemplar", replaces=("touch_up",),
+        colour=(0.75, 0.35, 1.0), icon="BRUSH_DATA", one=False, keyed=False, geometry=lines.touch_ups, points=1,
+        hint="Draw over what is badly filled behind the layer; it is filled again, by Touch-Up Radius and Seed",
+    ),
+    Role(
+        key="source_foreground", number=8, name="Source Foreground", motion="", of="source.scribbles",
+        replaces=("source_foreground",), colour=(0.1, 0.8, 0.7), icon="ADD", one=False, keyed=False,
+        geometry=lines.all_strokes, points=1, hint="Draw on what the hole behind the layer may be filled with",
+    ),
+    Role(
+        key="source_background", number=9, name="Source Background", motion="", of="source.scribbles",
+        replaces=("source_background",), colour=(0.8, 0.3, 0.1), icon="REMOVE", one=False, keyed=False,
+        geometry=lines.all_strokes, points=1, hint="Draw on what the hole behind the layer must not be filled with",
+    ),
+    Role(
+        key="source_outline", number=10, name="Source Outline", motion="", of="source.lasso",
+        replaces=("source_outline",), colour=(0.4, 0.9, 1.0), icon="MOD_OUTLINE", one=True, keyed=False,
+        geometry=lines.polygon, points=3,
+        hint="Draw once around what the hole behind the layer may be filled with; a new outline replaces the former",
+    ),
 )
 
 
@@ -57,4 +95,38 @@ def by_number(number: int) -> Role | None:
 
 def of_motion(motion: str) -> list[Role]:
     """The roles of layers that move so; of the picture itself for ""."""
-    return [role for role in ROLES if role.motion == motion]
+    return [role for role in ROLES if role.motion == motion and not role.of]
+
+
+def of_layer(layer) -> list[Role]:
+    """The roles that a layer has: by its motion, its matte and its fill."""
+    return [role for role in ROLES if is_of_layer(role) and has(layer, role)]
+
+
+def is_of_layer(role: Role) -> bool:
+    """Whether layers have it; else the picture itself."""
+    return bool(role.motion or role.of)
+
+
+def has(layer, role: Role) -> bool:
+    """Whether strokes of this role say something of a layer as it is."""
+    if not role.of:
+        return layer.motion.type == role.motion
+    what, _, form = role.of.partition(".")
+    if what == "matte":
+        return layer.matte.form == form
+    filled = layer.fill.method == "exemplar"
+    return filled and (what == "fill" or layer.fill.source.form == form)
+
+
+def begins(layer, role: Role) -> bool:
+    """Whether drawing such a stroke would choose the kind of the layer's matte: it has none yet."""
+    matte = layer.matte
+    unsaid = matte.form == "none" or (matte.form in ("file", "labels", "trimap") and not getattr(matte, matte.form))
+    return role.of.startswith("matte.") and unsaid
+
+
+def begin(layer, role: Role) -> None:
+    """Chooses it."""
+    if begins(layer, role):
+        layer.matte.form = role.of.partition(".")[2]

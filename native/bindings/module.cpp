@@ -16,6 +16,8 @@ PYBIND11_MODULE(_stillwater, module) {
   stillwater::bind_picture(module);
   stillwater::bind_patches(module);
   stillwater::bind_layers(module);
+  stillwater::bind_peel(module);
+  stillwater::bind_matting(module);
   stillwater::bind_inpaint(module);
   stillwater::bind_motion(module);
   stillwater::bind_water(module);

@@ -15,7 +15,8 @@ Mask as_mask(const FloatArray& array, const std::string& name) { return Mask(as_
 // All patches of the target, with the offsets given (height x width x 2), or none.
 MatchField whole_field(const PatchImage& target, const Shorts& offsets, int patch) {
   MatchField field = MatchField::of(centres_that_touch(Mask::ones(target.height(), target.width()), patch));
-  if (offsets.ndim() != 3 || offsets.shape(0) != target.height() || offsets.shape(1) != target.width() || offsets.shape(2) != 2)
+  if (offsets.ndim() != 3 || offsets.shape(0) != target.height() || offsets.shape(1) != target.width() ||
+      offsets.shape(2) != 2)
     throw BadInput("offsets: not height x width x 2 of the target");
   const auto given = offsets.unchecked<3>();
   for (int y = 0; y < field.area.height; ++y)
@@ -37,7 +38,8 @@ py::array_t<float> vote_arrays(const FloatArray& target, const FloatArray& sourc
                                const FloatArray& weight, int patch) {
   Rgba voted = as_image<cv::Vec4f>(target, "target").clone();
   const MatchField field = whole_field(PatchImage(voted.size()), offsets, patch);
-  vote(field, patch, as_image<float>(weight, "weight")(field.area), as_image<cv::Vec4f>(source, "source"), Mask::ones(voted.size()), voted);
+  vote(field, patch, as_image<float>(weight, "weight")(field.area), as_image<cv::Vec4f>(source, "source"),
+       Mask::ones(voted.size()), voted);
   return as_array(voted);
 }
 
@@ -45,9 +47,10 @@ py::array_t<float> vote_arrays(const FloatArray& target, const FloatArray& sourc
 
 void bind_patches(py::module_& module) {
   module.def("patch_match", &patch_match_arrays, py::arg("target"), py::arg("source"), py::arg("centres"),
-             py::arg("offsets"), py::kw_only(), py::arg("patch"), py::arg("rounds"), py::arg("radius") = 0, py::arg("seed") = 0);
-  module.def("vote", &vote_arrays, py::arg("target"), py::arg("source"), py::arg("offsets"), py::arg("weight"), py::kw_only(),
-             py::arg("patch"));
+             py::arg("offsets"), py::kw_only(), py::arg("patch"), py::arg("rounds"), py::arg("radius") = 0,
+             py::arg("seed") = 0);
+  module.def("vote", &vote_arrays, py::arg("target"), py::arg("source"), py::arg("offsets"), py::arg("weight"),
+             py::kw_only(), py::arg("patch"));
 }
 
 }  // namespace stillwater

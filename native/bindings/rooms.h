@@ -9,6 +9,8 @@ void bind_core(pybind11::module_& module);
 void bind_picture(pybind11::module_& module);
 void bind_patches(pybind11::module_& module);
 void bind_layers(pybind11::module_& module);
+void bind_peel(pybind11::module_& module);
+void bind_matting(pybind11::module_& module);
 void bind_inpaint(pybind11::module_& module);
 void bind_motion(pybind11::module_& module);
 void bind_water(pybind11::module_& module);

@@ -9,11 +9,16 @@ namespace stillwater::check {
 namespace {
 
 template <class Given, class Allowed>
-[[noreturn]] void refuse(std::string_view name, const Given& given, const Allowed& allowed, std::string_view unit = "") {
+[[noreturn]] void refuse(std::string_view name, const Given& given, const Allowed& allowed,
+                         std::string_view unit = "") {
   std::ostringstream sentence;
   sentence << name << ": " << given << " is not " << allowed;
   if (!unit.empty()) sentence << " (" << unit << ")";
   throw BadInput(sentence.str());
+}
+
+std::string place(std::string_view name, int y, int x) {
+  return std::string(name) + "[" + std::to_string(y) + ", " + std::to_string(x) + "]";
 }
 
 std::string shape(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
@@ -61,6 +66,21 @@ void same_size(std::string_view name, const cv::Mat& image, std::string_view oth
 
 void not_empty(std::string_view name, const cv::Mat& image) {
   if (image.empty()) refuse(name, shape(image.cols, image.rows), "an image of at least one pixel");
+}
+
+void finite_colours(std::string_view name, const Rgba& image) {
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Vec4f& colour = image(y, x);
+      if (std::isfinite(colour[0] + colour[1] + colour[2])) continue;
+      for (int c = 0; c < 3; ++c) finite(place(name, y, x), colour[c]);
+    }
+}
+
+void each_in_range(std::string_view name, const Plane& plane, double low, double high) {
+  for (int y = 0; y < plane.rows; ++y)
+    for (int x = 0; x < plane.cols; ++x)
+      if (!(plane(y, x) >= low && plane(y, x) <= high)) in_range(place(name, y, x), plane(y, x), low, high);
 }
 
 }  // namespace stillwater::check

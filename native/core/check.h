@@ -21,4 +21,8 @@ void size(std::string_view name, int width, int height);
 void same_size(std::string_view name, const cv::Mat& image, std::string_view other_name, const cv::Mat& other);
 void not_empty(std::string_view name, const cv::Mat& image);
 
+/// Every pixel; the sentence names the first that is not: "NAME[row, column]".
+void finite_colours(std::string_view name, const Rgba& image);
+void each_in_range(std::string_view name, const Plane& plane, double low, double high);
+
 }  // namespace stillwater::check

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <opencv2/core/types.hpp>
 
 /// The only door to threads. Work is cut into fixed pieces that do not depend on the number of threads, and no
 /// piece may read what another one writes: so the bytes are the same for any number of threads.
@@ -15,6 +16,15 @@ void parallel_rows(int rows, int grain, const std::function<void(int first, int 
 /// cancel: what it throws ends the work.
 void parallel_rows(int rows, int grain, const std::function<void(int first, int last)>& work,
                    const std::function<void(double share)>& at);
+
+/// Calls `work(y, x)` for every pixel of an image of this size; rows are the pieces' borders.
+template <class Work>
+void parallel_pixels(const cv::Size& size, const Work& work) {
+  parallel_rows(size.height, 32, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < size.width; ++x) work(y, x);
+  });
+}
 
 /// Threads that parallel_rows may use; 0 = one a core. Throws BadInput when negative or above 1024.
 void set_threads(int threads);

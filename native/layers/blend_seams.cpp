@@ -108,11 +108,14 @@ class Equation {
       if (views == 0) unlike = squared(colour(q) - colour(p)), views = 1;  // nothing is known of the change
       if (!open)
         for (int c = 0; c < 4; ++c) change[c] = std::clamp(change[c], -parameters_.steepest, parameters_.steepest);
-      const float weight = (open ? 1 : parameters_.border) * parameters_.step_of_tone / (parameters_.step_of_tone + unlike);
+      const float weight =
+          (open ? 1 : parameters_.border) * parameters_.step_of_tone / (parameters_.step_of_tone + unlike);
       right -= change * (weight / static_cast<float>(views));
       diagonal += weight;
-      if (open) neighbours_[i][k] = {number_(q), weight};
-      else right += weight * colour(q);
+      if (open)
+        neighbours_[i][k] = {number_(q), weight};
+      else
+        right += weight * colour(q);
     }
     right_[i] = right;
     diagonal_[i] = diagonal;
@@ -120,9 +123,7 @@ class Equation {
 
   static cv::Point shift(const ShiftMap& shifts, const cv::Point& p) { return {shifts(p)[0], shifts(p)[1]}; }
 
-  bool seen(const cv::Point& p, const Mask& hole) const {
-    return cv::Rect(cv::Point(), size_).contains(p) && !hole(p);
-  }
+  bool seen(const cv::Point& p, const Mask& hole) const { return cv::Rect(cv::Point(), size_).contains(p) && !hole(p); }
 
   void apply(const Pixels& from, Pixels& to) const {
     each([&](int i) {

@@ -22,14 +22,15 @@ struct BlendParameters {
 ///
 ///     sum over neighbours p, q of w(p, q) |u(q) - u(p) - g(p, q)|^2  +  screen * sum |u(p) - I(p + s_p)|^2
 ///
-/// where g is how the picture changes from p to q, seen with p's shift and with q's (their mean), and known pixels stay.
-/// The weight w falls with how unlike both views are, so that unlike things don't run into each other. Where both have one shift that is the picture's own gradient: so detail is kept, and only tone gives way.
+/// where g is how the picture changes from p to q, seen with p's shift and with q's (their mean), and known pixels
+/// stay. The weight w falls with how unlike both views are, so that unlike things don't run into each other. Where both
+/// have one shift that is the picture's own gradient: so detail is kept, and only tone gives way.
 ///
-/// Perez, Gangnet, Blake 2003, "Poisson image editing", equation 7, screened as in Bhat et al. 2008, "Fourier analysis of
-/// the 2D screened Poisson equation". Solved by conjugate gradients.
+/// Perez, Gangnet, Blake 2003, "Poisson image editing", equation 7, screened as in Bhat et al. 2008, "Fourier analysis
+/// of the 2D screened Poisson equation". Solved by conjugate gradients.
 ///
-/// `colour` holds the copies in the hole (copy_shifted()), and the result afterwards; alpha stays within 0..1, colours stay
-/// within 0 and alpha, or the copy where that is beyond. `at`: see patch_match().
+/// `colour` holds the copies in the hole (copy_shifted()), and the result afterwards; alpha stays within 0..1, colours
+/// stay within 0 and alpha, or the copy where that is beyond. `at`: see patch_match().
 void blend_seams(const ShiftMap& shifts, const Mask& hole, Rgba& colour, const BlendParameters& parameters = {},
                  const std::function<void(double)>& at = {});
 

@@ -1,215 +1,121 @@
 #include "layers/coarse_to_fine.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "core/parallel.h"
-#include "layers/fill_front.h"
-#include "layers/frequent_shifts.h"
-#include "layers/graph_cut_shifts.h"
-#include "layers/shift_map.h"
-#include "patches/patch_match.h"
-#include "patches/vote.h"
+#include "layers/affine_alpha.h"
 
 namespace stillwater {
 namespace {
 
-constexpr int coarse_rounds = 3, fine_rounds = 1;  // of search and vote
-constexpr int passes = 2;                          // of a search
-constexpr double most_cut = 14000;                 // pixels of a hole that is cut anew
-constexpr size_t most_found = 64, most_in_front = 200, most_frequent = 60, most_settled = 4000;  // shifts tried
-constexpr int settled_reach = 8;
-constexpr int settling_rounds = 30;
-// How much less a patch counts for each pixel that it lies deeper in the hole (Wexler et al., 3.1).
-constexpr double deeper = 1.3;
-constexpr float deepest = 60;
+constexpr int grain = 16;
+// Keeps a from growing where colours hardly change (colour squared).
+constexpr double ridge = 1e-5;
 
-using At = std::function<void(double)>;
-
-// How far a filling has come, made of parts that take some work each.
-class Course {
- public:
-  Course(const At& at, double whole) : at_(at), whole_(whole) {}
-
-  At part(double work) {
-    const double begin = done_;
-    done_ += work;
-    if (!at_) return {};
-    return [this, begin, work](double share) { at_(std::min(1.0, (begin + share * work) / whole_)); };
-  }
-
- private:
-  const At& at_;
-  double whole_, done_ = 0;
-};
-
-// Of a distance that three quarters of the matched patches stay below.
-double usual_distance(const MatchField& field) {
-  std::vector<int> distances;
-  for (int y = 0; y < field.area.height; ++y)
-    for (int x = 0; x < field.area.width; ++x)
-      if (field.wanted(y, x) && field.distance(y, x) != MatchField::unmatched) distances.push_back(field.distance(y, x));
-  if (distances.empty()) return 1;
-  const auto quartile = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 3 / 4);
-  std::nth_element(distances.begin(), quartile, distances.end());
-  return std::max(1.0, static_cast<double>(*quartile));
+bool flat_around(const Plane& matte, int y, int x) {
+  const float value = matte(y, x);
+  for (int ny = std::max(0, y - 1); ny <= std::min(matte.rows - 1, y + 1); ++ny)
+    for (int nx = std::max(0, x - 1); nx <= std::min(matte.cols - 1, x + 1); ++nx)
+      if (matte(ny, nx) != value) return false;
+  return true;
 }
 
-// How much each patch counts: those near what is known and those that fit well more.
-Plane weights_of(const MatchField& field, const Mask& hole) {
-  Plane depth, weights = Plane::zeros(field.area.size());
-  Mask padded;  // the picture's sides don't close a hole
-  cv::copyMakeBorder(hole, padded, 1, 1, 1, 1, cv::BORDER_REPLICATE);
-  cv::distanceTransform(padded, depth, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  const double spread = 2 * usual_distance(field);
-  parallel_rows(field.area.height, 16, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < field.area.width; ++x) {
-        if (!field.wanted(y, x) || field.distance(y, x) == MatchField::unmatched) continue;
-        const double deep = std::min(deepest, depth(y + field.area.y + 1, x + field.area.x + 1));
-        weights(y, x) = static_cast<float>(std::pow(deeper, -deep) * std::exp(-field.distance(y, x) / spread));
-      }
-  });
-  return weights;
+// What was unknown and is decided by a matte, with all that is within two pixels of it, becomes known.
+Trimap decided(const Trimap& trimap, const Plane& matte, float near) {
+  cv::Mat low, high;
+  const cv::Mat around = cv::Mat::ones(5, 5, CV_8U);
+  cv::dilate(matte, high, around);
+  cv::erode(matte, low, around);
+  Trimap result = trimap.clone();
+  const cv::Mat unknown = trimap == known::unknown;
+  result.setTo(known::background, unknown & (high <= near));
+  result.setTo(known::foreground, unknown & (low >= 1 - near));
+  return result;
 }
 
-void refresh_bytes(InpaintLevel& level) {
-  parallel_rows(level.hole.rows, 64, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < level.hole.cols; ++x)
-        if (level.hole(y, x)) level.bytes(y, x) = as_bytes(level.colour(y, x));
-  });
+bool has_both(const Trimap& trimap) {
+  const TrimapCount total = count(trimap);
+  return total.foreground > 0 && total.background > 0;
 }
 
-// A field that begins with the shifts of the pixels at the patches' centres, or of the nearest pixel of the hole.
-MatchField field_of(const ShiftMap& shifts, const InpaintLevel& level, int patch) {
-  MatchField field = MatchField::of(centres_that_touch(level.hole, patch));
-  const int half = patch / 2;
-  parallel_rows(field.area.height, 16, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < field.area.width; ++x) {
-        if (!field.wanted(y, x)) continue;
-        const cv::Point centre = cv::Point(x, y) + field.area.tl();
-        field.offset(y, x) = shifts(centre);
-        int nearest = level.hole(centre) ? 0 : std::numeric_limits<int>::max();
-        for (int j = -half; j <= half && nearest > 0; ++j)
-          for (int i = -half; i <= half; ++i)
-            if (j * j + i * i < nearest && level.hole(centre.y + j, centre.x + i))
-              nearest = j * j + i * i, field.offset(y, x) = shifts(centre.y + j, centre.x + i);
-      }
-  });
-  return field;
+bool can_be_solved_at_once(const Trimap& trimap, const CoarseToFineOptions& options) {
+  const long long unknown = count(trimap).unknown;
+  const bool scribbled = 4 * unknown > 3 * static_cast<long long>(trimap.total());
+  return unknown <= (scribbled ? options.at_once_scribbled : options.at_once);
 }
-
-class Filling {
- public:
-  Filling(std::vector<InpaintLevel>& levels, const CoarseToFineParameters& parameters, const At& at)
-      : levels_(levels), parameters_(parameters), cut_level_(cut_level()), course_(at, whole_work()) {}
-
-  ShiftMap run() {
-    const size_t last = levels_.size() - 1;
-    const FillFrontParameters front{.patch = parameters_.patch, .seed = parameters_.seed};
-    MatchField field = field_of(fill_front(levels_[last], front, course_.part(work(last))), levels_[last], parameters_.patch);
-    for (size_t i = last;; --i) {
-      for (int round = 0; round < rounds(i); ++round) {
-        search(i, round, field);
-        take_vote(levels_[i], field, course_.part(work(i)));
-      }
-      search(i, rounds(i), field);
-      if (i == cut_level_) field = cut_anew(levels_[i], field);
-      if (i == 0) return settled(levels_[0], field);
-      field = finer(field, levels_[i - 1]);
-    }
-  }
-
- private:
-  // The finest level on which cuts through the whole hole take little time.
-  size_t cut_level() const {
-    for (size_t i = 0; i < levels_.size(); ++i)
-      if (work(i) <= most_cut) return i;
-    return levels_.size() - 1;
-  }
-
-  int rounds(size_t level) const { return level < cut_level_ ? fine_rounds : coarse_rounds; }
-  double work(size_t level) const { return cv::countNonZero(levels_[level].hole); }
-  double cutting_work() const { return 40 * work(cut_level_); }
-
-  double whole_work() const {
-    double sum = work(levels_.size() - 1) + cutting_work() + 6 * work(0);
-    for (size_t i = 0; i < levels_.size(); ++i) sum += work(i) * (2 * rounds(i) + 2);
-    return sum;
-  }
-
-  void search(size_t level, int round, MatchField& field) {
-    const PatchSearch how{.patch = parameters_.patch, .rounds = passes, .radius = levels_[level].radius,
-                          .seed = parameters_.seed + 1000 * level + static_cast<std::uint64_t>(round)};
-    patch_match(levels_[level].bytes, levels_[level].bytes, levels_[level].centres, field, how, course_.part(work(level)));
-  }
-
-  void take_vote(InpaintLevel& level, const MatchField& field, const At& at) const {
-    vote(field, parameters_.patch, weights_of(field, level.hole), level.colour, level.hole, level.colour, at);
-    refresh_bytes(level);
-  }
-
-  MatchField cut_anew(InpaintLevel& level, const MatchField& found) {
-    ShiftMap shifts = agreed_shifts(found, weights_of(found, level.hole), parameters_.patch, level.hole, course_.part(0));
-    const SeamCost cost(level);
-    const std::vector<cv::Vec2s> tried = candidates(level, shifts);
-    expand_shifts(cost, level.hole, tried, {.sweeps = 2}, shifts, course_.part(0.75 * cutting_work()));
-    copy_shifted(shifts, level.hole, level.colour);
-    refresh_bytes(level);
-    MatchField field = field_of(shifts, level, parameters_.patch);
-    search(cut_level_, rounds(cut_level_) + 1, field);
-    return field;
-  }
-
-  std::vector<cv::Vec2s> candidates(const InpaintLevel& level, const ShiftMap& found) {
-    std::vector<cv::Vec2s> shifts = most_used(found, level.hole, most_found);
-    InpaintLevel other = level;
-    other.bytes = PatchImage(level.colour);
-    const ShiftMap front = fill_front(other, {.patch = parameters_.patch, .seed = parameters_.seed}, course_.part(0.15 * cutting_work()));
-    const FrequentShiftsParameters frequent{.patch = parameters_.patch, .seed = parameters_.seed, .most = most_frequent};
-    for (const std::vector<cv::Vec2s>& more :
-         {most_used(front, level.hole, most_in_front), frequent_shifts(level, frequent, course_.part(0.1 * cutting_work()))})
-      for (const cv::Vec2s& shift : more)
-        if (std::find(shifts.begin(), shifts.end(), shift) == shifts.end()) shifts.push_back(shift);
-    return shifts;
-  }
-
-  // The next level begins with what the field says there, sharp.
-  MatchField finer(const MatchField& field, InpaintLevel& level) {
-    MatchField large = twice_as_large(field, centres_that_touch(level.hole, parameters_.patch));
-    for (int y = 0; y < large.area.height; ++y)
-      for (int x = 0; x < large.area.width; ++x) {
-        const cv::Point source = cv::Point(x, y) + large.area.tl() + cv::Point(large.offset(y, x)[0], large.offset(y, x)[1]);
-        const bool there = cv::Rect(cv::Point(), level.hole.size()).contains(source) && level.centres(source);
-        if (large.wanted(y, x) && there) large.distance(y, x) = 0;
-      }
-    take_vote(level, large, course_.part(work(0) / 2));
-    return large;
-  }
-
-  ShiftMap settled(const InpaintLevel& level, const MatchField& field) {
-    ShiftMap shifts = agreed_shifts(field, weights_of(field, level.hole), parameters_.patch, level.hole, course_.part(work(0)));
-    const SeamCost cost(level);
-    const ExpansionParameters nearby{.sweeps = 2, .reach = settled_reach};
-    expand_shifts(cost, level.hole, most_used(shifts, level.hole, most_settled), nearby, shifts, course_.part(3 * work(0)));
-    settle_seams(cost, level.hole, settling_rounds, shifts, course_.part(work(0)));
-    return shifts;
-  }
-
-  std::vector<InpaintLevel>& levels_;
-  const CoarseToFineParameters& parameters_;
-  size_t cut_level_;
-  Course course_;
-};
 
 }  // namespace
 
-ShiftMap fill_coarse_to_fine(std::vector<InpaintLevel>& levels, const CoarseToFineParameters& parameters, const At& at) {
-  return Filling(levels, parameters, at).run();
+Rgba half_of(const Rgba& picture) {
+  Rgba half((picture.rows + 1) / 2, (picture.cols + 1) / 2);
+  parallel_rows(half.rows, grain, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const cv::Vec4f *top = picture[2 * y], *bottom = picture[std::min(picture.rows - 1, 2 * y + 1)];
+      for (int x = 0; x < half.cols; ++x) {
+        const int left = 2 * x, right = std::min(picture.cols - 1, left + 1);
+        half(y, x) = ((top[left] + top[right]) + (bottom[left] + bottom[right])) * 0.25f;
+      }
+    }
+  });
+  return half;
+}
+
+Trimap half_of(const Trimap& trimap) {
+  Trimap half((trimap.rows + 1) / 2, (trimap.cols + 1) / 2);
+  for (int y = 0; y < half.rows; ++y)
+    for (int x = 0; x < half.cols; ++x) {
+      bool foreground = false, background = false;
+      for (int ny = 2 * y; ny <= std::min(trimap.rows - 1, 2 * y + 1); ++ny)
+        for (int nx = 2 * x; nx <= std::min(trimap.cols - 1, 2 * x + 1); ++nx) {
+          foreground |= trimap(ny, nx) == known::foreground;
+          background |= trimap(ny, nx) == known::background;
+        }
+      half(y, x) = foreground == background ? known::unknown : foreground ? known::foreground : known::background;
+    }
+  return half;
+}
+
+Plane enlarge_matte(const Plane& matte, const Rgba& half, const Rgba& picture) {
+  cv::Mat_<cv::Vec4f> affine(matte.size()), large;
+  parallel_rows(matte.rows, grain, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < matte.cols; ++x)
+        if (flat_around(matte, y, x)) {
+          affine(y, x) = {0, 0, 0, matte(y, x)};
+        } else {
+          const AffineAlpha fit = fit_affine_alpha(half, matte, {x, y}, 1, ridge);
+          affine(y, x) = cv::Vec4d(fit.slope[0], fit.slope[1], fit.slope[2], fit.offset);
+        }
+  });
+  cv::blur(affine, affine, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
+  cv::resize(affine, large, cv::Size(2 * matte.cols, 2 * matte.rows), 0, 0, cv::INTER_LINEAR);
+  Plane result(picture.size());
+  parallel_rows(picture.rows, grain, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < picture.cols; ++x) {
+        const cv::Vec4f &a = large(y, x), &colour = picture(y, x);
+        result(y, x) = std::clamp(a[0] * colour[0] + a[1] * colour[1] + a[2] * colour[2] + a[3], 0.0f, 1.0f);
+      }
+  });
+  return result;
+}
+
+Plane coarse_to_fine(const Rgba& picture, const Trimap& trimap, const CoarseToFineOptions& options,
+                     const SolveLevel& solve) {
+  const bool enlarge_only = options.finest > 1;
+  const bool small = std::min(picture.rows, picture.cols) < 8;
+  if (small || (!enlarge_only && can_be_solved_at_once(trimap, options))) return solve(picture, trimap, {});
+  const Trimap half_trimap = half_of(trimap);
+  if (!has_both(half_trimap)) return solve(picture, trimap, {});
+  const Rgba half = half_of(picture);
+  CoarseToFineOptions further = options;
+  further.finest = std::max(1, options.finest / 2);
+  const Plane start = enlarge_matte(coarse_to_fine(half, half_trimap, further, solve), half, picture);
+  if (!enlarge_only) return solve(picture, decided(trimap, start, static_cast<float>(options.decided)), start);
+  Plane matte = grey_of(trimap);
+  start.copyTo(matte, trimap == known::unknown);
+  return matte;
 }
 
 }  // namespace stillwater

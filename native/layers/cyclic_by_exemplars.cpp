@@ -13,9 +13,9 @@ namespace stillwater {
 namespace {
 
 // Tone may lead a long way from the end to the beginning, and no edge stays at either.
-constexpr BlendParameters along_the_strip{.screen = 0.01f, .step_of_tone = 10.0f, .border = 16.0f};
-// Share of the image's steps, from one column to the next, that those into the strip must not be above; a little less, for
-// what they are asked to be they are nearly.
+constexpr BlendParameters along_the_strip{.screen = 0.001f, .step_of_tone = 10.0f, .border = 16.0f};
+// Share of the image's steps, from one column to the next, that those into the strip must not be above; a little less,
+// for what they are asked to be they are nearly.
 constexpr double usual_share = 0.999, nearly = 0.75;
 
 float usual_step(const Rgba& image) {
@@ -35,7 +35,8 @@ BlendParameters blend_of(const Rgba& image) {
   return blend;
 }
 
-// The image cut in its middle and put together with its strip between the ends, so that what was its border lies inside.
+// The image cut in its middle and put together with its strip between the ends, so that what was its border lies
+// inside.
 template <class Pixel>
 cv::Mat_<Pixel> turned(const cv::Mat_<Pixel>& image, const cv::Point& by) {
   cv::Mat_<Pixel> result(image.size());
@@ -49,7 +50,8 @@ class Synthesis {
   Synthesis(const CyclicParameters& parameters, Progress& progress) : parameters_(parameters), progress_(progress) {}
 
   Rgba filled(const Rgba& image, const Plane& hole, const BlendParameters& blend, double weight) {
-    const InpaintParameters how{.patch = parameters_.patch, .radius = {}, .seed = parameters_.seed, .grow = 0, .source = {}, .blend = blend};
+    const InpaintParameters how{
+        .patch = parameters_.patch, .radius = {}, .seed = parameters_.seed, .grow = 0, .source = {}, .blend = blend};
     progress_.phase("making it endless", weight);
     return inpaint(image, hole, how, Progress([this](const std::string&, double share) {
                      progress_.at(share);
@@ -65,17 +67,20 @@ class Synthesis {
     image.copyTo(whole(there));
     hole(there).setTo(0);
     const int by = period.width - image.cols / 2;
-    return turned(filled(turned(whole, {by, 0}), turned(hole, {by, 0}), blend_of(image), weight), {period.width - by, 0});
+    return turned(filled(turned(whole, {by, 0}), turned(hole, {by, 0}), blend_of(image), weight),
+                  {period.width - by, 0});
   }
 
-  // The strip below an image that wraps along x was filled as if it did not: where its ends meet it is filled once more.
+  // The strip below an image that wraps along x was filled as if it did not: where its ends meet it is filled once
+  // more.
   Rgba with_closed_corner(const Rgba& whole, int known_rows, double weight) {
     const int strip = whole.rows - known_rows, width = std::min(whole.cols / 2, std::max(strip, 4 * parameters_.patch));
     const cv::Point by(whole.cols / 2, whole.rows / 2);
     Plane hole = Plane::zeros(whole.size());
     hole(cv::Rect(0, known_rows, width / 2, strip)).setTo(1);
     hole(cv::Rect(whole.cols - width / 2, known_rows, width / 2, strip)).setTo(1);
-    return turned(filled(turned(whole, by), turned(hole, by), blend_of(whole), weight), {whole.cols - by.x, whole.rows - by.y});
+    return turned(filled(turned(whole, by), turned(hole, by), blend_of(whole), weight),
+                  {whole.cols - by.x, whole.rows - by.y});
   }
 
  private:
@@ -93,14 +98,17 @@ Rgba make_cyclic_by_exemplars(const Rgba& image, const CyclicParameters& paramet
   Synthesis synthesis(parameters, progress);
   const bool both = parameters.along_x && parameters.along_y, hidden = parameters.known.has_value();
   const double hidden_weight = hidden ? 0.2 : 0, strip_weight = (1 - hidden_weight) / (both ? 3 : 1);
-  Rgba whole = hidden ? synthesis.filled(image, Plane(1 - *parameters.known), BlendParameters(), hidden_weight) : image.clone();
+  Rgba whole =
+      hidden ? synthesis.filled(image, Plane(1 - *parameters.known), BlendParameters(), hidden_weight) : image.clone();
   const auto wide_enough = [&](int side) { return side >= 2 * parameters.patch; };
   if (parameters.along_x)
-    whole = wide_enough(whole.cols) ? synthesis.continued_to_the_right(whole, strip_weight) : make_cyclic(whole, true, false);
+    whole = wide_enough(whole.cols) ? synthesis.continued_to_the_right(whole, strip_weight)
+                                    : make_cyclic(whole, true, false);
   if (parameters.along_y) {
     whole = wide_enough(whole.rows) ? transposed(synthesis.continued_to_the_right(transposed(whole), strip_weight))
                                     : make_cyclic(whole, false, true);
-    if (both && wide_enough(std::min(image.cols, image.rows))) whole = synthesis.with_closed_corner(whole, image.rows, strip_weight);
+    if (both && wide_enough(std::min(image.cols, image.rows)))
+      whole = synthesis.with_closed_corner(whole, image.rows, strip_weight);
   }
   return whole;
 }

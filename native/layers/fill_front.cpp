@@ -31,9 +31,15 @@ struct Front {
 class FillFront {
  public:
   FillFront(InpaintLevel& level, const FillFrontParameters& parameters)
-      : level_(level), parameters_(parameters), half_(parameters.patch / 2), size_(level.hole.size()),
-        open_(level.hole.clone()), confidence_(size_, whole_confidence), version_(size_, 0),
-        shifts_(ShiftMap::zeros(size_)), weights_(static_cast<size_t>(parameters.patch) * parameters.patch),
+      : level_(level),
+        parameters_(parameters),
+        half_(parameters.patch / 2),
+        size_(level.hole.size()),
+        open_(level.hole.clone()),
+        confidence_(size_, whole_confidence),
+        version_(size_, 0),
+        shifts_(ShiftMap::zeros(size_)),
+        weights_(static_cast<size_t>(parameters.patch) * parameters.patch),
         wanted_(static_cast<size_t>(parameters.patch) * parameters.patch) {
     confidence_.setTo(0, open_);
     cv::findNonZero(level.centres, sources_);
@@ -65,9 +71,7 @@ class FillFront {
     return {std::clamp(place.x, half_, size_.width - 1 - half_), std::clamp(place.y, half_, size_.height - 1 - half_)};
   }
 
-  bool is_known(int y, int x) const {
-    return y >= 0 && x >= 0 && y < size_.height && x < size_.width && !open_(y, x);
-  }
+  bool is_known(int y, int x) const { return y >= 0 && x >= 0 && y < size_.height && x < size_.width && !open_(y, x); }
 
   void push_front(const cv::Rect& part) {
     for (int y = part.y; y < part.br().y; ++y)
@@ -105,12 +109,14 @@ class FillFront {
     const cv::Rect part = around(place, half_);
     for (int y = part.y; y < part.br().y; ++y)
       for (int x = part.x; x < part.br().x; ++x) {
-        if (!is_known(y, x) || !is_known(y, x - 1) || !is_known(y, x + 1) || !is_known(y - 1, x) || !is_known(y + 1, x)) continue;
+        if (!is_known(y, x) || !is_known(y, x - 1) || !is_known(y, x + 1) || !is_known(y - 1, x) || !is_known(y + 1, x))
+          continue;
         const int dx = light(y, x + 1) - light(y, x - 1), dy = light(y + 1, x) - light(y - 1, x);
         const std::int64_t strength = static_cast<std::int64_t>(dx) * dx + static_cast<std::int64_t>(dy) * dy;
         if (strength > strongest) strongest = strength, gx = dx, gy = dy;
       }
-    return std::abs(static_cast<double>(gx) * ny - static_cast<double>(gy) * nx) / std::sqrt(static_cast<double>(nx * nx + ny * ny)) / 1024;
+    return std::abs(static_cast<double>(gx) * ny - static_cast<double>(gy) * nx) /
+           std::sqrt(static_cast<double>(nx * nx + ny * ny)) / 1024;
   }
 
   std::int64_t priority(const cv::Point& place) const {
@@ -146,7 +152,8 @@ class FillFront {
         const int y = centre.y + j - half_, x = centre.x + i - half_;
         const bool known = !open_(y, x);
         weights_[static_cast<size_t>(j) * patch + i] = known ? known_weight : parameters_.guidance ? guessed_weight : 0;
-        wanted_[static_cast<size_t>(j) * patch + i] = known || !parameters_.guidance ? level_.bytes(y, x) : (*parameters_.guidance)(y, x);
+        wanted_[static_cast<size_t>(j) * patch + i] =
+            known || !parameters_.guidance ? level_.bytes(y, x) : (*parameters_.guidance)(y, x);
       }
   }
 
@@ -174,7 +181,8 @@ class FillFront {
   };
 
   void attempt(const cv::Point& centre, const cv::Point& source, Best& best) const {
-    if (source.x < 0 || source.y < 0 || source.x >= size_.width || source.y >= size_.height || !level_.centres(source)) return;
+    if (source.x < 0 || source.y < 0 || source.x >= size_.width || source.y >= size_.height || !level_.centres(source))
+      return;
     const cv::Point shift = source - centre;
     if (level_.radius > 0 && shift.ddot(shift) > level_.radius * level_.radius) return;
     const std::int64_t found = distance(source, best.distance);

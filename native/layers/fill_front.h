@@ -23,7 +23,8 @@ struct FillFrontParameters {
 ///
 /// so that lines that run into the hole are drawn on before the plain parts between them grow together. Each patch
 /// takes its unknown pixels from the patch most like its known ones. That one is searched among the shifts of its
-/// neighbours, the hints, and random places ever closer to it and to the best so far; everywhere, where that takes no longer.
+/// neighbours, the hints, and random places ever closer to it and to the best so far; everywhere, where that takes no
+/// longer.
 ///
 /// Changes `level.bytes` and `level.colour` inside the hole. Answers the shifts, of the level's size.
 /// Criminisi, Perez, Toyama 2003, equations 1 - 3. `at`: see patch_match().

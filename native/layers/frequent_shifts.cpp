@@ -17,7 +17,8 @@ constexpr int peak_reach = 4;  // nothing within so many pixels is as high as a 
 cv::Rect around_hole(const Mask& hole) {
   const cv::Rect box = cv::boundingRect(hole);
   const int margin = std::max(box.width, box.height);
-  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) & cv::Rect(cv::Point(), hole.size());
+  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+         cv::Rect(cv::Point(), hole.size());
 }
 
 struct Peak {
@@ -49,7 +50,12 @@ std::vector<cv::Vec2s> frequent_shifts(const InpaintLevel& level, const Frequent
   MatchField field = MatchField::of(wanted);
   const double tau = std::max(size.width, size.height) / static_cast<double>(not_near);
   patch_match(level.bytes, level.bytes, level.centres, field,
-              {.patch = parameters.patch, .rounds = search_rounds, .radius = level.radius, .nearest = tau, .seed = parameters.seed}, at);
+              {.patch = parameters.patch,
+               .rounds = search_rounds,
+               .radius = level.radius,
+               .nearest = tau,
+               .seed = parameters.seed},
+              at);
   cv::Mat_<float> histogram = cv::Mat_<float>::zeros(2 * size.height + 1, 2 * size.width + 1);
   for (int y = 0; y < field.area.height; ++y)
     for (int x = 0; x < field.area.width; ++x)

@@ -36,7 +36,8 @@ class Expansion {
     Graph graph(static_cast<unsigned>(movable.size()), static_cast<unsigned>(4 * movable.size()));
     for (size_t i = 0; i < movable.size(); ++i) graph.addVtx();
     bool linked = false;
-    for (size_t i = 0; i < movable.size(); ++i) linked = describe(graph, static_cast<int>(i), movable[i], shift) || linked;
+    for (size_t i = 0; i < movable.size(); ++i)
+      linked = describe(graph, static_cast<int>(i), movable[i], shift) || linked;
     const bool taken = linked && cut(graph, movable, shift);
     for (const cv::Point& p : movable) node_(p) = -1;
     return taken;
@@ -57,7 +58,8 @@ class Expansion {
     if (piece == pieces_.end()) return movable;
     for (const cv::Point& p : piece->second) {
       if (shifts_(p) != shift || !at_border(p)) continue;
-      const cv::Rect near = cv::Rect(p.x - reach_, p.y - reach_, 2 * reach_ + 1, 2 * reach_ + 1) & cv::Rect(cv::Point(), hole_.size());
+      const cv::Rect near =
+          cv::Rect(p.x - reach_, p.y - reach_, 2 * reach_ + 1, 2 * reach_ + 1) & cv::Rect(cv::Point(), hole_.size());
       for (int y = near.y; y < near.br().y; ++y)
         for (int x = near.x; x < near.br().x; ++x)
           if (hole_(y, x)) take({x, y});
@@ -83,7 +85,8 @@ class Expansion {
         takes += cost_(p, q, shift, shifts_(q));
       } else if (k % 2 == 1) {  // each pair once
         const std::int64_t first_takes = cost_(p, q, shift, shifts_(q)), second_takes = cost_(p, q, shifts_(p), shift);
-        const std::int64_t both_keep = std::min<std::int64_t>(cost_(p, q, shifts_(p), shifts_(q)), first_takes + second_takes);
+        const std::int64_t both_keep =
+            std::min<std::int64_t>(cost_(p, q, shifts_(p), shifts_(q)), first_takes + second_takes);
         // E = both_keep + (first - keep) x_p + (0 - first) x_q + (first + second - keep) (1 - x_p) x_q
         takes += first_takes - both_keep;
         graph.addTermWeights(node_(q), 0, first_takes);
@@ -113,7 +116,8 @@ class Expansion {
     graph.maxFlow();
     std::vector<std::pair<cv::Point, cv::Vec2s>> before;
     for (size_t i = 0; i < movable.size(); ++i)
-      if (!graph.inSourceSegment(static_cast<int>(i))) before.emplace_back(movable[i], shifts_(movable[i])), shifts_(movable[i]) = shift;
+      if (!graph.inSourceSegment(static_cast<int>(i)))
+        before.emplace_back(movable[i], shifts_(movable[i])), shifts_(movable[i]) = shift;
     if (before.empty()) return false;
     if (energy(movable) < energy_before) return true;
     for (const auto& [p, old] : before) shifts_(p) = old;

@@ -16,8 +16,8 @@ struct ExpansionParameters {
 /// the other as far as that lowers the sum: minimum cuts, so that large pieces move at once.
 ///
 /// Boykov, Veksler, Zabih 2001, "Fast approximate energy minimization via graph cuts", 3; for shifts: Pritch et al.
-/// 2009, 4, and He and Sun 2012, "Statistics of patch offsets for image completion", 3.2. Where a cut can't say what two neighbours
-/// cost (the cost is no metric) it is told less, and undone if the sum did not fall.
+/// 2009, 4, and He and Sun 2012, "Statistics of patch offsets for image completion", 3.2. Where a cut can't say what
+/// two neighbours cost (the cost is no metric) it is told less, and undone if the sum did not fall.
 ///
 /// `shifts`: of the level's size, a valid one everywhere in the hole; improved. `candidates`: tried in this order.
 void expand_shifts(const SeamCost& cost, const Mask& hole, const std::vector<cv::Vec2s>& candidates,

@@ -10,7 +10,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "layers/blend_seams.h"
-#include "layers/coarse_to_fine.h"
+#include "layers/fill_coarse_to_fine.h"
 #include "layers/inpaint_level.h"
 #include "layers/shift_map.h"
 #include "patches/patch_distance.h"
@@ -35,7 +35,8 @@ Mask as_mask(std::string_view name, const Plane& plane) {
   for (int y = 0; y < plane.rows; ++y)
     for (int x = 0; x < plane.cols; ++x) {
       if (std::isnan(plane(y, x)))
-        throw BadInput(std::string(name) + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is not a finite number");
+        throw BadInput(std::string(name) + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) +
+                       ") is not a finite number");
       mask(y, x) = plane(y, x) >= 0.5f ? 255 : 0;
     }
   return mask;
@@ -99,18 +100,19 @@ Rgba inpaint(const Rgba& picture, const Plane& hole, const InpaintParameters& pa
   check_numbers(picture, open);
   const int count = cv::countNonZero(open);
   if (count == 0) return picture.clone();
-  if (count == picture.rows * picture.cols) throw BadInput("hole: it covers the whole picture; nothing is left to copy from");
+  if (count == picture.rows * picture.cols)
+    throw BadInput("hole: it covers the whole picture; nothing is left to copy from");
 
   if (parameters.patch > std::max(picture.cols, picture.rows)) {
-    throw BadInput("patch: " + std::to_string(parameters.patch) + " is larger than the picture, " + std::to_string(picture.cols) + " x " +
-                   std::to_string(picture.rows) + " (px)");
+    throw BadInput("patch: " + std::to_string(parameters.patch) + " is larger than the picture, " +
+                   std::to_string(picture.cols) + " x " + std::to_string(picture.rows) + " (px)");
   }
 
   progress.phase("filling the hole", 0.9);
   const Margins margins(picture.size(), parameters.patch);
   std::vector<InpaintLevel> levels =
       inpaint_levels(margins.widened(picture), margins.widened(open), margins.widened(allowed_pixels(open, parameters)),
-                     parameters.patch, parameters.radius.value_or(0));
+                     parameters.patch, parameters.radius.value_or(0), [&] { progress.at(0); });
   InpaintLevel& finest = levels[0];
   check_sources(finest, parameters);
   const CoarseToFineParameters how{.patch = parameters.patch, .seed = parameters.seed};
@@ -118,7 +120,8 @@ Rgba inpaint(const Rgba& picture, const Plane& hole, const InpaintParameters& pa
   copy_shifted(shifts, finest.hole, finest.colour);
 
   progress.phase("blending the seams", 0.1);
-  if (parameters.blend) blend_seams(shifts, finest.hole, finest.colour, *parameters.blend, [&](double share) { progress.at(share); });
+  if (parameters.blend)
+    blend_seams(shifts, finest.hole, finest.colour, *parameters.blend, [&](double share) { progress.at(share); });
   progress.at(1);
   return Rgba(finest.colour(cv::Rect(cv::Point(), picture.size()))).clone();
 }

@@ -10,11 +10,12 @@
 namespace stillwater {
 
 struct InpaintParameters {
-  int patch = 9;                  ///< pixels a side, odd, 3 .. 63
-  std::optional<double> radius;   ///< how far a patch may come from, pixels; none = from anywhere
+  int patch = 9;                 ///< pixels a side, odd, 3 .. 63
+  std::optional<double> radius;  ///< how far a patch may come from, pixels; none = from anywhere
   std::uint64_t seed = 0;
-  int grow = 2;                   ///< pixels; patches come from no nearer to the hole's edge than this
-  std::optional<Plane> source;    ///< 0..1, patches come from where it is at least one half; none = from the whole picture
+  int grow = 2;  ///< pixels; patches come from no nearer to the hole's edge than this
+  std::optional<Plane>
+      source;  ///< 0..1, patches come from where it is at least one half; none = from the whole picture
   /// How seams are blended; without, every pixel of the hole is a copy of one of the source.
   std::optional<BlendParameters> blend = BlendParameters();
 };

@@ -62,10 +62,12 @@ bool usable(const InpaintLevel& level, int patch) {
 
 }  // namespace
 
-std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch, double radius) {
+std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch,
+                                         double radius, const std::function<void()>& still_wanted) {
   std::vector<InpaintLevel> levels(1);
   levels[0] = {picture.clone(), {}, hole, allowed, patch_centres(allowed, patch), radius};
   while (2 * half_width(levels.back().hole) > patches_across * patch) {
+    still_wanted();
     InpaintLevel coarse;
     halve(levels.back(), coarse);
     coarse.centres = patch_centres(coarse.allowed, patch);
@@ -73,6 +75,7 @@ std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, 
     if (!usable(coarse, patch)) break;
     levels.push_back(coarse);
   }
+  still_wanted();
   for (InpaintLevel& level : levels) level.bytes = PatchImage(level.colour);
   return levels;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "patches/patch_image.h"
@@ -18,8 +19,9 @@ struct InpaintLevel {
 
 /// The levels, finest first, each half as large as the one before: as many as the hole needs to become no wider than a
 /// patch, and as leave the picture a few patches large with something to copy from (within the radius of each patch).
-/// `allowed`: where patches may come from (not 0).
-std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch, double radius);
+/// `allowed`: where patches may come from (not 0). `still_wanted` is called after each; what it throws ends the work.
+std::vector<InpaintLevel> inpaint_levels(const Rgba& picture, const Mask& hole, const Mask& allowed, int patch,
+                                         double radius, const std::function<void()>& still_wanted);
 
 /// The largest distance, pixels, of a patch that touches the hole from the nearest one that it could be copied from,
 /// and where that patch is.

@@ -12,31 +12,10 @@
 namespace stillwater {
 namespace {
 
-constexpr int grain = 32;
-
-// A hole is filled from what lies at least so far from the matte, px: mattes end a little inside of what they cut out.
-constexpr int fringe = 3;
-// What a fringe still says where nothing better is near.
-constexpr float fringe_share = 1e-3f;
-
 // A matte goes on behind what hides it where it is likely; what is left of it further away fades out.
 float without_tail(float likely) {
   constexpr float unlikely = 0.25f;
   return likely < 2 * unlikely ? std::max(0.0f, 2 * (likely - unlikely)) : likely;
-}
-
-template <class Work>
-void each_pixel(const cv::Size& size, const Work& work) {
-  parallel_rows(size.height, grain, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < size.width; ++x) work(y, x);
-  });
-}
-
-// Confidence in a pixel of which `other` belongs to something else: falls off quickly.
-float purity(float other) {
-  const float pure = 1 - other, square = pure * pure, fourth = square * square;
-  return fourth * fourth;
 }
 
 // The box of what is above 0, grown so that a filling finds its surroundings.
@@ -46,21 +25,6 @@ cv::Rect surroundings(const Plane& region) {
   const int margin = std::max(32, std::max(box.width, box.height) / 4);
   return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
          cv::Rect(0, 0, region.cols, region.rows);
-}
-
-// `colour`, each pixel known as far as `confidence(y, x)` says, filled; `colour` itself where nothing is known.
-template <class Confidence>
-Rgba filled(const Rgba& colour, const Confidence& confidence) {
-  Rgba known(colour.size());
-  each_pixel(colour.size(), [&](int y, int x) {
-    const float share = confidence(y, x);
-    const cv::Vec4f& pixel = colour(y, x);
-    known(y, x) = {pixel[0] * share, pixel[1] * share, pixel[2] * share, share};
-  });
-  const bool nothing = std::all_of(known.begin(), known.end(), [](const cv::Vec4f& pixel) { return pixel[3] <= 0; });
-  if (nothing) return colour.clone();
-  fill_by_push_pull(known);
-  return known;
 }
 
 // A copy, of the picture's size.
@@ -86,138 +50,116 @@ void complete(Plane& matte, const Plane& hidden) {
   Plane part = matte(box);
   const Plane cover = hidden(box);
   cv::Mat_<cv::Vec2f> known(part.size());
-  each_pixel(part.size(), [&](int y, int x) {
+  parallel_pixels(part.size(), [&](int y, int x) {
     const float share = purity(cover(y, x));
     known(y, x) = {part(y, x) * share, share};
   });
   if (std::all_of(known.begin(), known.end(), [](const cv::Vec2f& pixel) { return pixel[1] <= 0; })) return;
   fill_by_push_pull(known);
-  each_pixel(part.size(), [&](int y, int x) {
+  parallel_pixels(part.size(), [&](int y, int x) {
     if (cover(y, x) > 0) part(y, x) = std::clamp(std::max(part(y, x), without_tail(known(y, x)[0])), 0.0f, 1.0f);
   });
 }
 
-class Peeling {
- public:
-  explicit Peeling(const Rgba& picture)
-      : left_(picture.clone()), hidden_(Plane::zeros(picture.size())), solid_(Plane::ones(picture.size())) {
-    for (cv::Vec4f& pixel : left_) pixel[3] = 1;
-  }
+// Two clear pixels on each side that is not the picture's: so that the layer's edge does not repeat there.
+LayerImage with_clear_sides(const LayerImage& layer, const cv::Size& picture) {
+  const cv::Rect wider = cv::Rect(layer.box.x - 2, layer.box.y - 2, layer.box.width + 4, layer.box.height + 4) &
+                         cv::Rect(cv::Point(), picture);
+  LayerImage result{Rgba::zeros(wider.size()), wider};
+  layer.pixels.copyTo(result.pixels(layer.box - wider.tl()));
+  return result;
+}
 
-  // Takes one layer off, and leaves what lies behind it.
-  LayerImage take(const PeelLayer& layer) {
-    Plane matte = softened(whole_matte(*layer.matte, left_.size()), layer.feather);
-    complete(matte, hidden_);
-    const cv::Rect box = surroundings(matte);
-    if (box.empty()) return {};
-    const Plane part = matte(box);
-    Rgba front = front_colour(left_(box), part), back = back_colour(layer, part, box);
-    split_remainder(left_(box), part, front, back);
-    LayerImage taken = cut(front, matte, box);
-    back.copyTo(left_(box));
-    if (std::holds_alternative<Fill>(layer.fill) && std::get<Fill>(layer.fill) == Fill::none) open_behind(part, box);
-    Plane hidden = hidden_(box);
-    each_pixel(box.size(), [&](int y, int x) { hidden(y, x) = std::max(hidden(y, x), part(y, x)); });
-    return taken;
-  }
-
-  LayerImage rest() const { return cut(left_, Plane::ones(left_.size()), cv::Rect(0, 0, left_.cols, left_.rows)); }
-
- private:
-  static Rgba front_colour(const Rgba& picture, const Plane& matte) {
-    return filled(picture, [&](int y, int x) { return matte(y, x) > 0 ? purity(1 - matte(y, x)) : 0.0f; });
-  }
-
-  Rgba back_colour(const PeelLayer& layer, const Plane& matte, const cv::Rect& box) const {
-    if (const Rgba* painted = std::get_if<Rgba>(&layer.fill)) {
-      Rgba back = (*painted)(box).clone();
-      for (cv::Vec4f& pixel : back) pixel[3] = 1;
-      return back;
-    }
-    if (std::get<Fill>(layer.fill) == Fill::none) return left_(box).clone();
-    Plane wide;
-    cv::dilate(matte, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * fringe + 1, 2 * fringe + 1)));
-    return filled(left_(box), [&](int y, int x) {
-      return std::max(purity(wide(y, x)), fringe_share * purity(matte(y, x)));
-    });
-  }
-
-  static void split_remainder(const Rgba& picture, const Plane& matte, Rgba& front, Rgba& back) {
-    each_pixel(picture.size(), [&](int y, int x) {
-      const float a = matte(y, x);
-      const cv::Vec4f& p = picture(y, x);
-      if (a >= 1) front(y, x) = p;
-      if (a <= 0) back(y, x) = p;
-      const cv::Vec4f share = (p - a * front(y, x) - (1 - a) * back(y, x)) * (1 / (a * a + (1 - a) * (1 - a)));
-      if (a < 1) front(y, x) += a * share;
-      if (a > 0) back(y, x) += (1 - a) * share;
-    });
-  }
-
-  // `front`, which covers `box`, times the matte, in the box of the matte.
-  LayerImage cut(const Rgba& front, const Plane& matte, const cv::Rect& box) const {
-    const Plane cover = matte(box).mul(solid_(box));
-    const cv::Rect inner = cv::boundingRect(cover > 0);
-    if (inner.empty()) return {};
-    Rgba pixels(inner.size());
-    each_pixel(inner.size(), [&](int y, int x) {
-      const float a = cover(y + inner.y, x + inner.x);
-      const cv::Vec4f& f = front(y + inner.y, x + inner.x);
-      pixels(y, x) = {a * f[0], a * f[1], a * f[2], a};
-    });
-    return with_clear_sides({pixels, inner + box.tl()}, matte.size());
-  }
-
-  // Two clear pixels on each side that is not the picture's: so that the layer's edge does not repeat there.
-  static LayerImage with_clear_sides(const LayerImage& layer, const cv::Size& picture) {
-    const cv::Rect wider = cv::Rect(layer.box.x - 2, layer.box.y - 2, layer.box.width + 4, layer.box.height + 4) &
-                           cv::Rect(cv::Point(), picture);
-    LayerImage result{Rgba::zeros(wider.size()), wider};
-    layer.pixels.copyTo(result.pixels(layer.box - wider.tl()));
-    return result;
-  }
-
-  // Nothing is behind what the layer covers wholly.
-  void open_behind(const Plane& matte, const cv::Rect& box) {
-    Plane solid = solid_(box);
-    each_pixel(matte.size(), [&](int y, int x) {
-      if (matte(y, x) >= 1) solid(y, x) = 0;
-    });
-  }
-
-  Rgba left_;     // the picture without the layers taken so far
-  Plane hidden_;  // how far they cover it
-  Plane solid_;   // 0 where nothing is behind them
-};
-
-void check_matte(const std::string& name, const std::variant<Plane, MatteInBox>& matte, const Rgba& picture) {
-  if (const Plane* whole = std::get_if<Plane>(&matte)) return check::same_size(name, *whole, "the picture", picture);
-  const auto& [pixels, box] = std::get<MatteInBox>(matte);
+void check_box(const std::string& name, const cv::Mat& pixels, const cv::Rect& box, const Rgba& picture) {
   if ((box & cv::Rect(cv::Point(), picture.size())) != box || pixels.size() != box.size())
     throw BadInput(name + ": its box does not fit its pixels and the picture");
 }
 
+void check_matte(const std::string& name, const std::variant<Plane, MatteInBox>& matte, const Rgba& picture) {
+  if (const Plane* whole = std::get_if<Plane>(&matte)) return check::same_size(name, *whole, "the picture", picture);
+  const auto& [pixels, box] = std::get<MatteInBox>(matte);
+  check_box(name, pixels, box, picture);
+}
+
+void check_layer(const std::string& name, const PeelLayer& layer, const Rgba& picture) {
+  check::in_range(name + ".feather", layer.feather, 0, 1000, "px");
+  if (layer.matte) check_matte(name + ".matte", *layer.matte, picture);
+  if (const Rgba* painted = std::get_if<Rgba>(&layer.fill)) check::same_size(name + ".fill", *painted, "the picture", picture);
+}
+
+std::string place_of(size_t index) { return "layers[" + std::to_string(index) + "]"; }
+
 void check_layers(const Rgba& picture, const std::vector<PeelLayer>& layers) {
-  check::not_empty("picture", picture);
   for (size_t i = 0; i < layers.size(); ++i) {
-    const std::string place = "layers[" + std::to_string(i) + "]";
-    check::in_range(place + ".feather", layers[i].feather, 0, 1000, "px");
-    if (layers[i].matte) check_matte(place + ".matte", *layers[i].matte, picture);
-    else if (i + 1 < layers.size()) throw BadInput(place + ".matte: missing (only the last layer needs none)");
-    if (const Rgba* painted = std::get_if<Rgba>(&layers[i].fill))
-      check::same_size(place + ".fill", *painted, "the picture", picture);
+    check_layer(place_of(i), layers[i], picture);
+    if (!layers[i].matte && i + 1 < layers.size())
+      throw BadInput(place_of(i) + ".matte: missing (only the last layer needs none)");
   }
 }
 
 }  // namespace
+
+Peeling::Peeling(const Rgba& picture) {
+  check::not_empty("picture", picture);
+  left_ = picture.clone();
+  for (cv::Vec4f& pixel : left_) pixel[3] = 1;
+  hidden_ = Plane::zeros(picture.size());
+  solid_ = Plane::ones(picture.size());
+}
+
+Peeling::Taken Peeling::take(const PeelLayer& layer, std::string_view name, Progress progress) {
+  check_layer(std::string(name), layer, left_);
+  if (!layer.matte) throw BadInput(std::string(name) + ".matte: missing");
+  Plane matte = softened(whole_matte(*layer.matte, left_.size()), layer.feather);
+  complete(matte, hidden_);
+  matte = cv::max(0.0, cv::min(1.0, matte));  // blurring rounds
+  const cv::Rect box = cv::boundingRect(matte > 0);
+  if (box.empty()) return {};
+  const Uncovered colours = uncover(left_, matte, hidden_, layer.fill, std::move(progress));
+  const Fill* fill = std::get_if<Fill>(&layer.fill);
+  const bool open = fill != nullptr && *fill == Fill::none;
+  const Rgba back = colours.back(box - colours.box.tl()).clone();
+  Taken taken{cut(colours.front, matte, colours.box), {back, matte(box).clone(), box, open}};
+  leave(taken.behind);
+  return taken;
+}
+
+void Peeling::leave(const Behind& behind) {
+  check_box("behind", behind.colour, behind.box, left_);
+  check_box("behind", behind.matte, behind.box, left_);
+  if (behind.box.empty()) return;
+  behind.colour.copyTo(left_(behind.box));
+  Plane hidden = hidden_(behind.box), solid = solid_(behind.box);
+  parallel_pixels(behind.box.size(), [&](int y, int x) {
+    const float a = behind.matte(y, x);
+    hidden(y, x) = std::max(hidden(y, x), a);
+    if (behind.open && a >= 1) solid(y, x) = 0;
+  });
+}
+
+LayerImage Peeling::rest() const { return cut(left_, Plane::ones(left_.size()), cv::Rect(0, 0, left_.cols, left_.rows)); }
+
+// `front`, which covers `box`, times the matte, in the box of the matte.
+LayerImage Peeling::cut(const Rgba& front, const Plane& matte, const cv::Rect& box) const {
+  const Plane cover = matte(box).mul(solid_(box));
+  const cv::Rect inner = cv::boundingRect(cover > 0);
+  if (inner.empty()) return {};
+  Rgba pixels(inner.size());
+  parallel_pixels(inner.size(), [&](int y, int x) {
+    const float a = cover(y + inner.y, x + inner.x);
+    const cv::Vec4f& f = front(y + inner.y, x + inner.x);
+    pixels(y, x) = {a * f[0], a * f[1], a * f[2], a};
+  });
+  return with_clear_sides({pixels, inner + box.tl()}, matte.size());
+}
 
 std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers, Progress progress) {
   check_layers(picture, layers);
   Peeling peeling(picture);
   std::vector<LayerImage> taken;
   progress.phase("cutting the layers", 1);
-  for (const PeelLayer& layer : layers) {
-    taken.push_back(layer.matte ? peeling.take(layer) : peeling.rest());
+  for (size_t i = 0; i < layers.size(); ++i) {
+    taken.push_back(layers[i].matte ? peeling.take(layers[i], place_of(i)).layer : peeling.rest());
     progress.at(static_cast<double>(taken.size()) / static_cast<double>(layers.size()));
   }
   return taken;

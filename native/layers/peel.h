@@ -1,20 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
-#include "core/progress.h"
 #include "layers/layer_image.h"
+#include "layers/uncover.h"
 
 /// From a picture and the mattes of its layers to the layers themselves, front to back: each is taken off what is
 /// left of the picture, and the hole behind it is filled (METHODS.md 1; Chuang et al. 2005, 3.1).
 namespace stillwater {
-
-enum class Fill {
-  push_pull,  ///< smoothly, from what surrounds the hole at 3 px or more (nearer lies the fringe of what was cut out)
-  none,       ///< transparent behind what the layer covers wholly
-};
 
 /// A matte of which only a part is kept: `pixels`, 0..1, in `box`, and 0 outside of it.
 struct MatteInBox {
@@ -24,22 +20,59 @@ struct MatteInBox {
 
 struct PeelLayer {
   std::optional<std::variant<Plane, MatteInBox>> matte;  ///< 0..1, a Plane of the picture's size; the last needs none
-  std::variant<Fill, Rgba> fill{Fill::push_pull};  ///< or a painted background, size of the picture
-  double feather = 0;                        ///< softens the matte: a Gaussian of sigma feather / 2, px
+  Filling fill{Fill::push_pull};
+  double feather = 0;  ///< softens the matte: a Gaussian of sigma feather / 2, px
 };
 
-/// The layers, front first. `picture` counts as opaque (its fourth channel is not read).
+/// What lies behind a layer that was taken off, as far as that changed the picture.
+struct Behind {
+  Rgba colour;        ///< box.height x box.width, opaque
+  Plane matte;        ///< the same size: of the layer, feathered, and gone on behind what hides it
+  cv::Rect box;       ///< picture pixels; empty for a layer without coverage
+  bool open = false;  ///< nothing is behind what the layer covers wholly (Fill::none)
+};
+
+/// Takes the layers off a picture one after the other, front first.
 ///
-/// - Laid over each other at rest they give the picture: exactly where mattes are 0 or 1, else to rounding. Whatever
-///   foreground F and background B are thought to be, the remainder r = P - aF - (1-a)B is split between them:
-///   F += a r / (a^2 + (1-a)^2), B += (1-a) r / (a^2 + (1-a)^2).
-/// - F at soft edges is drawn smoothly from where the layer is whole, so that no halo of the old background moves along.
+/// - Laid over each other at rest they give the picture: exactly where mattes are 0 or 1, else to rounding (uncover()).
 /// - What of a matte lies hidden behind layers in front goes on smoothly from what is seen of it, never below what
 ///   the matte itself says there.
-/// - The last layer without a matte covers the whole picture.
+class Peeling {
+ public:
+  /// `picture` counts as opaque (its fourth channel is not read). Throws BadInput where it is empty.
+  explicit Peeling(const Rgba& picture);
+
+  struct Taken {
+    LayerImage layer;
+    Behind behind;
+  };
+
+  /// Takes the next layer off; it needs a matte. `name` stands in sentences.
+  /// Throws BadInput where a size differs, the matte is missing or reaches outside the picture, or the feather is not
+  /// within 0 .. 1000, and as uncover() does; Cancelled. What is left is then as it was.
+  Taken take(const PeelLayer& layer, std::string_view name = "layer", Progress progress = {});
+
+  /// The next layer was taken off before, and left this. Throws BadInput where it does not fit the picture.
+  void leave(const Behind& behind);
+
+  /// What is left: the picture without the layers taken off, opaque.
+  const Rgba& left() const { return left_; }
+
+  /// All that is left, as the last layer.
+  LayerImage rest() const;
+
+ private:
+  LayerImage cut(const Rgba& front, const Plane& matte, const cv::Rect& box) const;
+
+  Rgba left_;
+  Plane hidden_;  // how far the layers taken so far cover it
+  Plane solid_;   // 0 where nothing is behind them
+};
+
+/// All layers at once, front first. A last layer without a matte covers the whole picture.
 ///
-/// Throws BadInput where sizes differ, a matte is missing or reaches outside the picture, or a feather is not within 0 .. 1000; Cancelled where
-/// `progress`, asked after each layer, says so.
+/// Throws BadInput as Peeling does, and where another layer than the last has no matte; Cancelled where `progress`,
+/// asked now and then, says so.
 std::vector<LayerImage> peel(const Rgba& picture, const std::vector<PeelLayer>& layers, Progress progress = {});
 
 }  // namespace stillwater

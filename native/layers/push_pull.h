@@ -16,4 +16,10 @@ Rgba push_pull(const Rgba& known);
 void fill_by_push_pull(Rgba& known);
 void fill_by_push_pull(cv::Mat_<cv::Vec2f>& known);
 
+/// How far to trust a pixel of which the share `other` belongs to something else: falls off quickly.
+inline float purity(float other) {
+  const float pure = 1 - other, square = pure * pure, fourth = square * square;
+  return fourth * fourth;
+}
+
 }  // namespace stillwater

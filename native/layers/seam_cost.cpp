@@ -10,12 +10,14 @@ namespace {
 constexpr int border_at_all = 60;
 constexpr int not_seen = 20000;  // what would be beside one of them lies outside the picture, or in the hole
 
-constexpr short no_slope = 32767;    // beside a pixel lies the hole, or the picture's border
+constexpr short no_slope = 32767;  // beside a pixel lies the hole, or the picture's border
 
 }  // namespace
 
 SeamCost::SeamCost(const InpaintLevel& level)
-    : level_(level), inside_(cv::Point(), level.hole.size()), squared_radius_(level.radius > 0 ? level.radius * level.radius : 1e18),
+    : level_(level),
+      inside_(cv::Point(), level.hole.size()),
+      squared_radius_(level.radius > 0 ? level.radius * level.radius : 1e18),
       looks_(level.hole.size()) {
   const auto light = [&](int y, int x) {
     const cv::Vec4b& pixel = level.bytes(y, x);
@@ -45,7 +47,8 @@ int SeamCost::difference(const cv::Point& a, const cv::Point& b) const {
   return sum;
 }
 
-int SeamCost::operator()(const cv::Point& p, const cv::Point& q, const cv::Vec2s& shift_p, const cv::Vec2s& shift_q) const {
+int SeamCost::operator()(const cv::Point& p, const cv::Point& q, const cv::Vec2s& shift_p,
+                         const cv::Vec2s& shift_q) const {
   if (shift_p == shift_q) return 0;
   const cv::Point s(shift_p[0], shift_p[1]), t(shift_q[0], shift_q[1]);
   const bool open = level_.hole(q) != 0;

@@ -14,8 +14,8 @@ using ShiftMap = cv::Mat_<cv::Vec2s>;
 ///
 ///     |I(p + s_p) - I(p + s_q)|^2 + |I(q + s_p) - I(q + s_q)|^2,
 ///
-/// the same of the gradients of lightness, and a little for being a border at all; 0 where s_p = s_q. A known pixel has the
-/// shift 0. Pritch, Kav-Venaki, Peleg 2009, "Shift-map image editing", equation 4.
+/// the same of the gradients of lightness, and a little for being a border at all; 0 where s_p = s_q. A known pixel has
+/// the shift 0. Pritch, Kav-Venaki, Peleg 2009, "Shift-map image editing", equation 4.
 class SeamCost {
  public:
   /// Of `level.bytes` only known pixels are read.
@@ -33,7 +33,8 @@ class SeamCost {
   /// Does the shift lead to a pixel that may be copied, within the radius?
   bool may_copy(const cv::Point& p, const cv::Vec2s& shift) const {
     const cv::Point from(p.x + shift[0], p.y + shift[1]);
-    return inside_.contains(from) && level_.allowed(from) && shift[0] * shift[0] + shift[1] * shift[1] <= squared_radius_;
+    return inside_.contains(from) && level_.allowed(from) &&
+           shift[0] * shift[0] + shift[1] * shift[1] <= squared_radius_;
   }
 
   bool contains(const cv::Point& p) const { return inside_.contains(p); }

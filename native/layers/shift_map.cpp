@@ -22,7 +22,8 @@ struct Votes {
 
 class Seams {
  public:
-  Seams(const SeamCost& cost, const Mask& hole, ShiftMap& shifts) : cost_(cost), hole_(hole), shifts_(shifts), box_(cv::boundingRect(hole)) {}
+  Seams(const SeamCost& cost, const Mask& hole, ShiftMap& shifts)
+      : cost_(cost), hole_(hole), shifts_(shifts), box_(cv::boundingRect(hole)) {}
 
   bool round(int colour) {
     std::atomic<bool> moved{false};
@@ -74,25 +75,34 @@ ShiftMap agreed_shifts(const MatchField& field, const Plane& weight, int patch, 
   ShiftMap shifts = ShiftMap::zeros(hole.size());
   const int half = patch / 2, left = field.area.x, top = field.area.y;
   const cv::Rect box = cv::boundingRect(hole);
-  parallel_rows(box.height, 8, [&](int first, int last) {
-    std::vector<Votes> votes;
-    for (int y = box.y + first; y < box.y + last; ++y)
-      for (int x = box.x; x < box.br().x; ++x) {
-        if (!hole(y, x)) continue;
-        votes.clear();
-        for (int row = std::max(0, y - half - top); row <= std::min(field.area.height - 1, y + half - top); ++row)
-          for (int column = std::max(0, x - half - left); column <= std::min(field.area.width - 1, x + half - left); ++column) {
-            const float share = weight(row, column);
-            if (share <= 0) continue;
-            const cv::Vec2s& shift = field.offset(row, column);
-            const auto known = std::find_if(votes.begin(), votes.end(), [&](const Votes& v) { return v.shift == shift; });
-            if (known == votes.end()) votes.push_back({shift, share});
-            else known->weight += share;
+  parallel_rows(
+      box.height, 8,
+      [&](int first, int last) {
+        std::vector<Votes> votes;
+        for (int y = box.y + first; y < box.y + last; ++y)
+          for (int x = box.x; x < box.br().x; ++x) {
+            if (!hole(y, x)) continue;
+            votes.clear();
+            for (int row = std::max(0, y - half - top); row <= std::min(field.area.height - 1, y + half - top); ++row)
+              for (int column = std::max(0, x - half - left); column <= std::min(field.area.width - 1, x + half - left);
+                   ++column) {
+                const float share = weight(row, column);
+                if (share <= 0) continue;
+                const cv::Vec2s& shift = field.offset(row, column);
+                const auto known =
+                    std::find_if(votes.begin(), votes.end(), [&](const Votes& v) { return v.shift == shift; });
+                if (known == votes.end())
+                  votes.push_back({shift, share});
+                else
+                  known->weight += share;
+              }
+            if (votes.empty()) continue;
+            shifts(y, x) = std::max_element(votes.begin(), votes.end(), [](const Votes& a, const Votes& b) {
+                             return a.weight < b.weight;
+                           })->shift;
           }
-        if (votes.empty()) continue;
-        shifts(y, x) = std::max_element(votes.begin(), votes.end(), [](const Votes& a, const Votes& b) { return a.weight < b.weight; })->shift;
-      }
-  }, at);
+      },
+      at);
   return shifts;
 }
 
@@ -105,11 +115,13 @@ std::vector<cv::Vec2s> most_used(const ShiftMap& shifts, const Mask& hole, size_
   std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   ordered.resize(std::min(most, ordered.size()));
   std::vector<cv::Vec2s> used;
-  for (const auto& [shift, count] : ordered) used.emplace_back(static_cast<short>(shift.first), static_cast<short>(shift.second));
+  for (const auto& [shift, count] : ordered)
+    used.emplace_back(static_cast<short>(shift.first), static_cast<short>(shift.second));
   return used;
 }
 
-void settle_seams(const SeamCost& cost, const Mask& hole, int rounds, ShiftMap& shifts, const std::function<void(double)>& at) {
+void settle_seams(const SeamCost& cost, const Mask& hole, int rounds, ShiftMap& shifts,
+                  const std::function<void(double)>& at) {
   Seams seams(cost, hole, shifts);
   for (int i = 0; i < rounds; ++i) {
     const bool white = seams.round(0), black = seams.round(1);

@@ -18,7 +18,8 @@ std::vector<cv::Vec2s> most_used(const ShiftMap& shifts, const Mask& hole, size_
 /// Moves the borders between pieces of one shift to where they are seen least: a pixel takes a neighbour's shift where
 /// that lowers the sum of SeamCost over all neighbours. Pixels of the two colours of a chessboard take turns, so that
 /// the result is the same for any number of threads.
-void settle_seams(const SeamCost& cost, const Mask& hole, int rounds, ShiftMap& shifts, const std::function<void(double)>& at = {});
+void settle_seams(const SeamCost& cost, const Mask& hole, int rounds, ShiftMap& shifts,
+                  const std::function<void(double)>& at = {});
 
 /// Fills the hole with what the shifts say.
 void copy_shifted(const ShiftMap& shifts, const Mask& hole, Rgba& colour);

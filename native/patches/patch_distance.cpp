@@ -20,6 +20,9 @@ int plain(const unsigned char* target, std::ptrdiff_t target_stride, const unsig
 }  // namespace
 
 PatchDistance::PatchDistance(const PatchImage& target, const PatchImage& source, int patch)
-    : target_(target), source_(source), half_(patch / 2), kernel_(has_avx2() ? stillwater_patch_distance_avx2 : plain) {}
+    : target_(target),
+      source_(source),
+      half_(patch / 2),
+      kernel_(has_avx2() ? stillwater_patch_distance_avx2 : plain) {}
 
 }  // namespace stillwater

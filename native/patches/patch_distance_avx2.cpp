@@ -21,8 +21,9 @@ inline int total(__m256i sums) {
 
 // All but the first `count` of 32 bytes are dropped.
 inline __m256i first_bytes(int count) {
-  static const unsigned char kept[64] = {255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255,
-                                         255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
+  static const unsigned char kept[64] = {255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255,
+                                         255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255,
+                                         255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
   return bytes(kept + 32 - count);
 }
 
@@ -38,7 +39,8 @@ int stillwater_patch_distance_avx2(const unsigned char* target, ptrdiff_t target
   for (int row = 0; row < patch; ++row, target += target_stride, source += source_stride) {
     for (int i = 0; i < whole; i += 32) sums = _mm256_add_epi32(sums, squares(bytes(target + i), bytes(source + i)));
     if (rest) {
-      const __m256i a = _mm256_and_si256(bytes(target + whole), tail), b = _mm256_and_si256(bytes(source + whole), tail);
+      const __m256i a = _mm256_and_si256(bytes(target + whole), tail),
+                    b = _mm256_and_si256(bytes(source + whole), tail);
       sums = _mm256_add_epi32(sums, squares(a, b));
     }
     if (row % rows_between_looks == rows_between_looks - 1) {

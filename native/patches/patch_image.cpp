@@ -21,7 +21,8 @@ void clear_border(Mask& mask, int width) {
 }  // namespace
 
 PatchImage::PatchImage(const cv::Size& size)
-    : whole_(cv::Mat_<cv::Vec4b>::zeros(size.height, size.width + spare_pixels)), view_(whole_.colRange(0, size.width)) {}
+    : whole_(cv::Mat_<cv::Vec4b>::zeros(size.height, size.width + spare_pixels)),
+      view_(whole_.colRange(0, size.width)) {}
 
 PatchImage::PatchImage(const Rgba& image) : PatchImage(image.size()) {
   parallel_rows(image.rows, 64, [&](int first, int last) {

@@ -35,9 +35,13 @@ class Search {
  public:
   Search(const PatchImage& target, const PatchImage& source, const Mask& centres, MatchField& field,
          const PatchSearch& parameters)
-      : distance_(target, source, parameters.patch), centres_(centres), field_(field), parameters_(parameters),
+      : distance_(target, source, parameters.patch),
+        centres_(centres),
+        field_(field),
+        parameters_(parameters),
         squared_radius_(parameters.radius > 0 ? parameters.radius * parameters.radius : 1e18),
-        squared_nearest_(parameters.nearest * parameters.nearest), longest_reach_(std::max(source.width(), source.height())) {
+        squared_nearest_(parameters.nearest * parameters.nearest),
+        longest_reach_(std::max(source.width(), source.height())) {
     if (parameters.radius > 0) longest_reach_ = std::min(longest_reach_, static_cast<int>(parameters.radius));
     for (int y = 0; y < field.area.height; y += tile_side)
       for (int x = 0; x < field.area.width; x += tile_side) {
@@ -84,9 +88,12 @@ class Search {
     if (lost.empty()) return;
     cv::findNonZero(centres_, places);
     if (places.empty()) return;
-    parallel_rows(static_cast<int>(lost.size()), 16, [&](int first, int last) {
-      for (int i = first; i < last; ++i) find(lost[i], places);
-    }, at ? [&](double) { at(1.0 / (parameters_.rounds + 1)); } : std::function<void(double)>());
+    parallel_rows(
+        static_cast<int>(lost.size()), 16,
+        [&](int first, int last) {
+          for (int i = first; i < last; ++i) find(lost[i], places);
+        },
+        at ? [&](double) { at(1.0 / (parameters_.rounds + 1)); } : std::function<void(double)>());
   }
 
   void find(const cv::Point& patch, const std::vector<cv::Point>& places) {
@@ -104,9 +111,10 @@ class Search {
     for (const cv::Point& place : places)
       if (in_reach(offset_of(place))) reachable.push_back(place);
     if (reachable.empty()) return;
-    const auto nearest = std::min_element(reachable.begin(), reachable.end(), [&](const cv::Point& a, const cv::Point& b) {
-      return (a - target).ddot(a - target) < (b - target).ddot(b - target);
-    });
+    const auto nearest =
+        std::min_element(reachable.begin(), reachable.end(), [&](const cv::Point& a, const cv::Point& b) {
+          return (a - target).ddot(a - target) < (b - target).ddot(b - target);
+        });
     attempt(patch.y, patch.x, offset_of(*nearest));
   }
 

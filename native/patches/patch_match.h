@@ -8,10 +8,10 @@
 namespace stillwater {
 
 struct PatchSearch {
-  int patch = 9;           ///< odd, pixels a side
-  int rounds = 4;          ///< each passes over all patches once, forwards and backwards in turn
-  double radius = 0;       ///< how far a match may lie from its patch, pixels; 0 = anywhere
-  double nearest = 0;      ///< how far it must lie at least: an image is not matched with itself in place
+  int patch = 9;       ///< odd, pixels a side
+  int rounds = 4;      ///< each passes over all patches once, forwards and backwards in turn
+  double radius = 0;   ///< how far a match may lie from its patch, pixels; 0 = anywhere
+  double nearest = 0;  ///< how far it must lie at least: an image is not matched with itself in place
   std::uint64_t seed = 0;
 };
 

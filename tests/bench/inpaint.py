@@ -1,4 +1,4 @@
-"""Holes filled, against G'MIC's inpaint_matchpatch (Debian's package, installed here) on two threads; by time, and by figures."""
+"""Holes filled, against G'MIC's inpaint_matchpatch (Debian's gmic, installed here): time on two threads, and figures."""
 
 from __future__ import annotations
 
@@ -33,7 +33,13 @@ def rows():
         for _ in range(RUNS):
             theirs.append(gmic.seconds(picture, hole, Path(folder)))
             ours.append(_seconds(lambda: stillwater.inpaint(picture, hole)))
-        yield Row(f"inpainting 360x480, hole {pixels // 1000}k px (inpaint_matchpatch)", statistics.median(ours), statistics.median(theirs), 1, "s")
+        yield Row(
+            f"inpainting 360x480, hole {pixels // 1000}k px (inpaint_matchpatch)",
+            statistics.median(ours),
+            statistics.median(theirs),
+            1,
+            "s",
+        )
         mine = figures_of(stillwater.inpaint(picture, hole)[..., :3], hole)
         other = figures_of(gmic.filled(picture, hole, Path(folder)), hole)
         yield Row("  distance of its patches to the nearest outside", mine.coherence, other.coherence, 1, "level")
@@ -42,7 +48,13 @@ def rows():
     seconds = statistics.median(_seconds(lambda: stillwater.inpaint(picture, hole)) for _ in range(3))
     yield Row(f"inpainting 1920x1080, hole {int(hole.sum()) // 1000}k px", seconds, 4, 1, "s")
     wide = scene(1920, 540)
-    yield Row("make_cyclic 1920x540 (as fast as that hole, by pixels)", _seconds(lambda: stillwater.make_cyclic(wide)), 4 * 480 * 540 / 2e5, 1, "s")
+    yield Row(
+        "make_cyclic 1920x540 (as fast as that hole, by pixels)",
+        _seconds(lambda: stillwater.make_cyclic(wide)),
+        4 * 480 * 540 / 2e5,
+        1,
+        "s",
+    )
 
 
 def scene(width: int, height: int) -> np.ndarray:
@@ -66,7 +78,9 @@ def scene(width: int, height: int) -> np.ndarray:
 def lobed(width: int, height: int, radius: float) -> np.ndarray:
     y, x = np.mgrid[:height, :width]
     angle = np.arctan2(y - height * 0.55, x - width / 2)
-    return np.hypot(y - height * 0.55, x - width / 2) < radius * (1 + 0.15 * np.cos(5 * angle) + 0.1 * np.sin(3 * angle))
+    return np.hypot(y - height * 0.55, x - width / 2) < radius * (
+        1 + 0.15 * np.cos(5 * angle) + 0.1 * np.sin(3 * angle)
+    )
 
 
 class _gmic:

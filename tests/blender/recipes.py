@@ -69,6 +69,35 @@ def whole() -> dict:
     }
 
 
+def cut_out() -> dict:
+    """A layer of each form of matte that is drawn or solved, and of each field of a fill; nobody's default."""
+    stroke = lambda width, *points: {"points": [list(point) for point in points], "width": width}  # noqa: E731
+    scribbles = {
+        "foreground": [stroke(3, (4, 4), (6.5, 5)), stroke(2, (5, 7))],
+        "background": [stroke(4, (1, 1, 0.5), (30, 1, 1), (30.25, 14, 0.25))],
+    }
+    outline = [[3, 2], [12, 2.5], [11, 9], [4, 10]]
+    one, other = stroke(5, (8, 3), (9, 4)), stroke(6, (8, 5), (10, 6, 0.5))
+    fill = {"method": "exemplar", "patch": 7, "radius": 25, "grow": 3.5}
+    source = {"scribbles": scribbles, "method": "bayesian"}
+    return {
+        **{name: value for name, value in whole().items() if name not in ("layers", "output")},
+        "layers": [
+            {"name": "tree", "matte": {"scribbles": scribbles, "method": "bayesian"},
+             "fill": {**fill, "source": {"lasso": outline, "feather": 2, "snap": 1, "method": "bayesian"},
+                      "touch_up": [{"stroke": one, "radius": 12, "seed": 4}, {"stroke": other, "radius": 12, "seed": 4}]}},
+            {"name": "boat", "matte": {"lasso": outline, "feather": 3, "snap": 4, "method": "bayesian"},
+             "fill": {**fill, "source": {"trimap": "behind.png", "method": "bayesian"},
+                      "touch_up": [{"stroke": one, "radius": None, "seed": 0}, {"stroke": other, "radius": 9, "seed": 8}]}},
+            {"name": "hill", "matte": {"trimap": "trimap.png", "method": "bayesian"}, "fill": {**fill, "source": source}},
+            {"name": "wall", "matte": {"trimap": "trimap.png"},
+             "fill": {**fill, "radius": None, "source": {"labels": "labels.png", "value": 2}}},
+            {"name": "gate", "matte": {"trimap": "trimap.png"}, "fill": {"method": "exemplar", "source": {"file": "matte.png", "channel": "R"}}},
+            {"name": "sky"},
+        ],
+    }
+
+
 def write(folder: Path, recipe: dict) -> Path:
     """Writes the recipe and a picture of 32 x 16 beside it; returns the recipe's path."""
     folder.mkdir(parents=True, exist_ok=True)

@@ -23,10 +23,12 @@ SWAY, WATERLINE, HORIZON = (roles.by_key(key) for key in ("sway_line", "waterlin
 
 @pytest.fixture
 def layers(scene, picture, extension):
-    """Oak sways, Boat bobs; Oak is active."""
+    """Oak sways, Boat bobs; Oak is active. Nothing of them is drawn but their motions."""
     lay_out(scene, picture)
     for name, motion in (("Oak", "sway"), ("Boat", "bob")):
         extension.properties.arrange.add_layer(picture, name).motion.type = motion
+    for layer in picture.layers:
+        layer.matte.form, layer.matte.file, layer.fill.method = "file", "//matte.png", "none"
     picture.active_layer = 1
     return picture.layers
 
@@ -67,70 +69,75 @@ def test_done_leads_back(scene, picture, layers):
     assert status() == "" and draw_mode.tick() is None
 
 
-def shelves() -> list[bool]:
-    """Which viewports show the shelf of brushes."""
-    areas = [area for window in bpy.context.window_manager.windows for area in window.screen.areas]
-    return [area.spaces.active.show_region_asset_shelf for area in areas if area.type == "VIEW_3D"]
+class Viewport:
+    """Stands for one that was drawn: only then Blender tells whether it shows the shelf of brushes."""
+
+    def __init__(self):
+        self.spaces, self.show_region_asset_shelf, self.drawn = SimpleNamespace(active=self), True, True
+
+    def is_property_readonly(self, name) -> bool:
+        return not self.drawn
 
 
-def show_shelves(shown: bool) -> None:
-    for area in bpy.context.window.screen.areas:
-        if area.type == "VIEW_3D":
-            area.spaces.active.show_region_asset_shelf = shown
+@pytest.fixture
+def viewport(monkeypatch):
+    viewport = Viewport()
+    monkeypatch.setattr(draw_mode, "_viewports", lambda scene: [(None, viewport)])
+    return viewport
 
 
 def draw_sway_line() -> None:
-    """Into draw mode, where a redraw makes the shelf the first time, and shows it; a timer comes."""
+    """Into draw mode, by an undo step, until the timer comes."""
     bpy.ops.stillwater.draw_stroke("EXEC_DEFAULT", True, role="sway_line")
-    if bpy.context.scene.session_uid not in draw_mode._shelves:
-        show_shelves(all(shelves()))
     draw_mode.tick()
 
 
 @pytest.mark.parametrize("before", [True, False])
-def test_brushes_do_not_lie_over_the_picture_meanwhile(scene, picture, layers, before):
+def test_brushes_do_not_lie_over_the_picture_meanwhile(scene, picture, layers, viewport, before):
+    viewport.show_region_asset_shelf = before
     draw_sway_line()
-    assert shelves() and not any(shelves())
+    assert not viewport.show_region_asset_shelf
     bpy.ops.stillwater.stop_drawing()
-    assert all(shelves()), "as Blender shows it first"
-    show_shelves(before)
+    assert viewport.show_region_asset_shelf == before
+
+
+def test_whoever_opens_the_brushes_has_them(scene, picture, layers, viewport):
     draw_sway_line()
-    assert not any(shelves())
-    show_shelves(True)
+    viewport.show_region_asset_shelf = True
     draw_mode.look_after()
     draw_mode.tick()
-    assert all(shelves()), "whoever opens it has it"
+    assert viewport.show_region_asset_shelf
     bpy.ops.stillwater.stop_drawing()
-    assert set(shelves()) == {True}
+    assert viewport.show_region_asset_shelf
 
 
-def test_who_has_no_brushes_gets_none(scene, picture, layers):
+def test_a_viewport_that_was_not_drawn_yet_is_waited_for(scene, picture, layers, viewport):
+    viewport.drawn = False
     draw_sway_line()
-    bpy.ops.stillwater.stop_drawing()
-    show_shelves(False)
-    draw_sway_line()
-    bpy.ops.stillwater.stop_drawing()
-    assert not any(shelves())
+    assert viewport.show_region_asset_shelf
+    viewport.drawn = True
+    draw_mode.tick()
+    assert not viewport.show_region_asset_shelf
 
 
-def test_brushes_come_back_after_undo_and_blender_s_own_ways(scene, picture, layers, tmp_path):
+def test_brushes_come_back_after_undo_and_blender_s_own_ways(scene, picture, layers, viewport, tmp_path):
     bpy.ops.ed.undo_push(message="Before")
     draw_sway_line()
     bpy.ops.ed.undo()
-    assert all(shelves())
+    assert viewport.show_region_asset_shelf
     bpy.ops.ed.redo()
     draw_mode.tick()
-    assert not any(shelves())
+    assert not viewport.show_region_asset_shelf
     bpy.ops.object.mode_set(mode="OBJECT")
     draw_mode.tick()
-    assert all(shelves())
+    assert viewport.show_region_asset_shelf
     draw_sway_line()
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "meanwhile.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "meanwhile.blend"), load_ui=True)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "meanwhile.blend"))
     draw_mode.tick()
-    assert not any(shelves())
+    assert not viewport.show_region_asset_shelf
     bpy.ops.stillwater.stop_drawing()
-    assert all(shelves())
+    assert viewport.show_region_asset_shelf
 
 
 def test_the_status_bar_is_left_to_others(scene, picture, layers, monkeypatch):
@@ -317,9 +324,12 @@ def shown() -> dict:
 
 
 def test_the_panel_offers_the_roles_that_there_are(scene, picture, layers):
-    assert shown()["operators"].count("stillwater.draw_stroke") == 2  # Oak's and the horizon
+    picture.active_layer = 2  # the last one, which needs no matte
+    assert shown()["operators"].count("stillwater.draw_stroke") == 2  # Boat's and the horizon
     picture.active_layer = 0
-    assert shown()["operators"].count("stillwater.draw_stroke") == 1
+    picture.layers[0].matte.form, picture.layers[0].fill.method = "scribbles", "none"
+    assert shown()["operators"].count("stillwater.draw_stroke") == 3  # foreground, background, the horizon
+    picture.active_layer = 1
     bpy.ops.stillwater.draw_stroke(role="horizon")
     said = shown()
     assert "stillwater.stop_drawing" in said["operators"] and "stillwater.delete_strokes" not in said["operators"]
@@ -349,7 +359,8 @@ def test_the_panel_in_edit_mode_changes_roles(picture, layers, selected):
 def icons() -> dict[str, str]:
     """What the buttons of the roles show."""
     (panel,) = [cls for cls in registered("view_3d") if cls.bl_label == "Strokes"]
-    return {text: icon for text, icon in show(panel).icons if text}
+    lines = {SWAY.name, WATERLINE.name, HORIZON.name}
+    return {text: icon for text, icon in show(panel).icons if text in lines}
 
 
 def test_a_role_that_was_drawn_or_typed_has_a_check_mark(scene, picture, layers):

@@ -283,10 +283,10 @@ def test_layers_of_a_linked_scene_are_left_alone(extension, layers, tmp_path):
 
 def test_every_operator_is_found_by_a_name_in_title_case_and_says_what_it_does(extension):
     ours = [cls for cls in extension.layers.CLASSES if issubclass(cls, bpy.types.Operator)]
-    assert len(ours) == 16
+    assert len(ours) == 19
     for cls in ours:
         kind = getattr(bpy.ops.stillwater, cls.bl_idname.split(".")[1]).get_rna_type()
-        small = {"to", "of", "the"}
+        small = {"to", "of", "the", "from"}
         assert all(word[0].isupper() or word in small for word in kind.name.split()), kind.name
         assert kind.description and not kind.description.endswith("."), kind.name
         assert "INTERNAL" not in cls.bl_options

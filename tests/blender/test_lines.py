@@ -20,7 +20,7 @@ def test_ends_are_root_and_tip_of_the_last_line_drawn():
     assert lines.polyline([former, last]) == [[10, 20], [14, 3], [12.346, -8]]
 
 
-@pytest.mark.parametrize("role", roles.ROLES, ids=lambda role: role.key)
+@pytest.mark.parametrize("role", [role for role in roles.ROLES if not role.of], ids=lambda role: role.key)
 def test_a_dab_is_not_a_line(role):
     dab = stroke((5, 5)), stroke((5, 5), (5, 5))
     assert role.geometry([]) is None and role.geometry([*dab]) is None
@@ -66,3 +66,34 @@ def test_each_role_is_told_apart():
     assert all(0 < role.number < 128 for role in roles.ROLES)  # above it an id of 24 bits, in 31
     assert [role.key for role in roles.of_motion("sway")] == ["sway_line"]
     assert [role.key for role in roles.of_motion("")] == ["horizon"] and roles.of_motion("drift") == []
+
+
+def test_scribbles_are_all_strokes_and_dabs_count():
+    dab, line = stroke((5, 5)), stroke((0, 1), (10, 1), widths=np.array([2.0, 4.0]))
+    assert lines.all_strokes([]) is None
+    assert lines.all_strokes([dab, line]) == [
+        {"points": [[5, 5]], "width": 8}, {"points": [[0, 1, 0.5], [10, 1, 1]], "width": 4},
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("width, written", [(0.0, 0.001), (1e-9, 0.001), (1.0, 1), (1e6, 16384)])
+def test_a_width_is_one_that_the_recipe_may_have(width, written):
+    (said,) = lines.all_strokes([stroke((1, 2), (3, 4), widths=np.full(2, width))])
+    assert said == {"points": [[1, 2], [3, 4]], "width": written}
+
+
+def test_an_outline_is_the_last_line_that_encloses_something():
+    ring, line, closed = stroke((0, 0), (9, 0), (9, 9)), stroke((0, 0), (5, 5), (9, 9)), stroke((1, 1), (4, 1), (4, 4), (1, 1))
+    assert lines.polygon([]) is None and lines.polygon([line, stroke((3, 3)), stroke((0, 0), (9, 0))]) is None
+    assert lines.polygon([closed, ring, line]) == [[0, 0], [9, 0], [9, 9]]
+    assert lines.polygon([ring, closed]) == [[1, 1], [4, 1], [4, 4]]
+
+
+def test_touch_ups_say_what_is_their_own():
+    points, widths = np.array([(1, 2), (3, 4)], float), np.full(2, 8.0)
+    plain = lines.Stroke(points, widths, 1)
+    own, anywhere = lines.Stroke(points, widths, 1, 40.0, 8), lines.Stroke(points, widths, 1, lines.ANYWHERE, 1)
+    drawn = {"stroke": {"points": [[1, 2], [3, 4]], "width": 8}}
+    assert lines.touch_ups([]) is None
+    said = [drawn, {**drawn, "radius": 40, "seed": 7}, {**drawn, "radius": None, "seed": 0}]
+    assert lines.touch_ups([plain, own, anywhere]) == said

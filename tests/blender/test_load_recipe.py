@@ -69,9 +69,9 @@ def test_two_recipes_are_two_pictures(opened):
     assert pictures[0].tree != pictures[1].tree
 
 
-LASSO = {"name": "a", "matte": {"lasso": [[0, 0], [1, 0], [1, 1]]}}
 FLOW = {"name": "a", "motion": {"type": "flow"}}
-PATCH = {"name": "a", "fill": {"method": "exemplar", "patch": 11}}
+STROKE = {"points": [[1, 1], [2, 2]]}
+TOUCHED = {"name": "a", "fill": {"method": "exemplar", "touch_up": [{"stroke": STROKE, "seed": 2**31 - 1}]}}
 
 
 @pytest.mark.parametrize(
@@ -82,8 +82,7 @@ PATCH = {"name": "a", "fill": {"method": "exemplar", "patch": 11}}
         ({"picture": "none.png"}, "none.png"),
         ({"picture": "recipe.json"}, "recipe.json"),
         ({"seed": 2**40}, r"seed: 1099511627776 is above what Blender can hold \(2147483647\)"),
-        ({"layers": [PATCH]}, "layers.0..fill: numbers of an exemplar fill"),
-        ({"layers": [LASSO]}, "matte"),
+        ({"layers": [TOUCHED]}, r"layers.0..fill.touch_up.0..seed: 2147483648 is above what Blender can hold"),
         ({"layers": [FLOW]}, 'motion.type: "flow"'),
         ({"picture": None, "size": [32, 16]}, "picture: missing"),
     ],

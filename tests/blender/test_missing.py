@@ -82,7 +82,7 @@ def no_water_at_all():
 SENTENCES = {
     no_line: "Draw its sway line, from where it is held to its tip",
     no_points: "Draw its waterline, along the hull where it meets the water",
-    no_matte: "Choose its matte: which part of the picture it is",
+    no_matte: "Draw on it with Foreground, or choose its matte: which part of the picture it is",
     no_matte_file: "Choose the file of its matte",
     no_labels: "Choose the file of its matte",
     no_background: "Choose the file that is painted behind it",

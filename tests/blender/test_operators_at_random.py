@@ -18,7 +18,7 @@ from pictures import paint
 SEEDS, STEPS = 50, 15
 SLOW = 5  # every so-manieth sequence bakes, and plays its pictures live
 MOTIONS = ["still", "sway", "ripple", "bob", "drift"]
-ROLES = ["sway_line", "waterline", "horizon", "horizon"]
+ROLES = ["sway_line", "waterline", "horizon", "horizon", "foreground", "background", "outline", "touch_up"]
 
 
 class Artist:
@@ -80,10 +80,15 @@ CALLS = {
     "copy_to_selected": one_of("path", ["motion", "opacity", "motion.sway.amount", "name", "nothing.here"]),
     "delete_strokes": one_of("role", ROLES),
     "draw_stroke": one_of("role", ROLES),
+    "drop_picture": lambda artist: {"filepath": artist.picture_file()},
     "duplicate_layer": nothing,
     "export_recipe": lambda artist: {"filepath": artist.file(".json")},
+    "fit_view": nothing,
     "former_view": nothing,
     "free_bake": nothing,
+    "layer_from_outline": one_of("motion", MOTIONS),
+    "layers_from_mask": one_of("mask", ["", "Mask", "none"]),
+    "layers_from_pass": lambda artist: {"filepath": artist.picture_file()},
     "load_recipe": lambda artist: {"filepath": artist.recipe_file()},
     "move_layer": one_of("direction", ["UP", "DOWN", "TOP", "BOTTOM"]),
     "open_picture": lambda artist: {"filepath": artist.picture_file(), "use_render": artist.dice.random() < 0.8},
@@ -183,12 +188,13 @@ def slide(artist) -> None:
     picture.wind.speed, picture.loop = artist.dice.uniform(0, 30), artist.dice.random() < 0.5
     picture.view.use_horizon = artist.dice.random() < 0.5
     picture.view.horizon_end = artist.dice.uniform(1, 20), 4
-    bpy.context.scene.stillwater_live.view = artist.dice.choice(["picture", "layer", "matte", "original"])
+    bpy.context.scene.stillwater_live.view = artist.dice.choice(["picture", "layer", "matte", "behind", "original"])
     if len(picture.layers):
         layer = artist.dice.choice(list(picture.layers))
         layer.opacity, layer.selected, layer.solo = artist.dice.random(), True, artist.dice.random() < 0.2
         layer.motion.sway.armature_tip = artist.dice.uniform(0, 20), 1
-        layer.matte.form = artist.dice.choice(["none", "file", "labels"])
+        layer.matte.form = artist.dice.choice(["none", "file", "labels", "scribbles", "lasso", "trimap"])
+        layer.fill.source.form = artist.dice.choice(["none", "none", "none", "lasso", "scribbles"])
         layer.matte.file = artist.picture_file()
         layer.follows.layer = artist.dice.choice([other.name for other in picture.layers])
         picture.active_layer = artist.dice.randrange(len(picture.layers))
@@ -261,6 +267,14 @@ def draw_a_horizon(artist) -> None:
         _call(bpy.ops.stillwater.draw_stroke, role="horizon")
 
 
+def make_a_mask(artist) -> None:
+    spline = bpy.data.masks.new("Mask").layers.new(name="oak").splines.new()
+    spline.points.add(3)
+    for point, place in zip(spline.points, ((0.2, 0.3), (0.8, 0.3), (0.8, 0.7), (0.2, 0.7)), strict=True):
+        point.co = point.handle_left = point.handle_right = place
+    spline.use_cyclic = True
+
+
 def select_two(artist) -> None:
     if artist.picture is not None:
         artist.extension.properties.arrange.add_layer(artist.picture, "one more").selected = True
@@ -285,7 +299,7 @@ def bake_first(artist) -> None:
 FIRST = {
     "add_to_sequencer": bake_first, "add_waterline_point": float_a_boat, "cancel": begin_a_bake,
     "change_role": select_strokes, "clear_waterline": float_a_boat, "copy_to_selected": select_two,
-    "former_view": use_standard_after_agx, "remove_waterline_point": float_a_boat,
+    "former_view": use_standard_after_agx, "layers_from_mask": make_a_mask, "remove_waterline_point": float_a_boat,
     "standard_view": use_agx, "stop_drawing": draw_a_horizon,
 }  # fmt: skip
 PUSHED = [another_scene, delete_scene, rename, slide, slide, animate, draw_by_hand, delete_by_hand]  # steps to be undone

@@ -270,7 +270,7 @@ def test_the_switches_stand_in_the_overlays_popover(room, scene, picture):
     shown = Recorder()
     space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=True))
     room.settings.draw(SimpleNamespace(layout=shown), SimpleNamespace(scene=scene, space_data=space))
-    assert shown.properties == ["sway_lines", "wind", "water", "waterlines", "outline"]
+    assert shown.properties == ["sway_lines", "wind", "water", "waterlines", "outline", "tint", "checker"]
 
 
 def test_what_goes_wrong_while_drawing_is_a_sentence(room, scene, live, monkeypatch):
@@ -283,3 +283,60 @@ def test_what_goes_wrong_while_drawing_is_a_sentence(room, scene, live, monkeypa
     shows.show_overlays, room.draw.problem = False, ""
     room.draw.draw()
     assert room.draw.problem == ""
+
+
+def test_a_matte_s_outline_marches_in_black_and_white(room):
+    lines = room.outline.outline(np.pad(np.ones((40, 60)), 10))
+    (plain,) = room.shapes.outline(lines, 0.5)
+    black, white = room.shapes.marching(lines, 0.5, dash=16, step=0)
+    later = next(iter(room.shapes.marching(lines, 0.5, dash=16, step=1)))
+    assert len(black.ends) + len(white.ends) == len(plain.ends) and 0.3 < len(black.ends) / len(plain.ends) < 0.7
+    assert sorted(black.ends + white.ends) == sorted(plain.ends) and later.ends == white.ends
+    assert (black.colour, white.colour) == (room.shapes.BLACK, room.shapes.WHITE)
+
+
+def test_a_veil_lies_over_all_that_is_not_the_layer(room):
+    coverage = np.zeros((32, 48), np.float32)
+    coverage[8:24, 8:40], coverage[4, 4] = 1, 0.25
+    tint, checker = room.cutting.veil(coverage, False), room.cutting.veil(coverage, True)
+    for veil, strength in ((tint, room.cutting.STRENGTH), (checker, 1)):
+        assert veil.shape == (32, 48, 4) and veil.dtype == np.float32
+        np.testing.assert_allclose(veil[..., 3], strength * (1 - coverage))
+    assert (tint[..., :3] == np.float32(room.cutting.TINT)).all()
+    squares = checker[..., 0]
+    assert set(np.unique(squares)) == {np.float32(room.cutting.LIGHT), np.float32(room.cutting.DARK)}
+    assert squares[0, 0] == squares[7, 7] == squares[8, 8] != squares[0, 8] == squares[8, 0]
+
+
+def test_a_sketch_goes_before_what_frames_are_made_of(room):
+    class Live:
+        layers, scale = ["tree"], 0.5
+
+        def coverage(self, layer):
+            return np.full((20, 30), 0.25, np.float32)
+
+    sketch = SimpleNamespace(layer="tree", matte=np.full((1500, 3000), 255, np.uint8), number=1)
+    cut = room.cutting.cut("tree", Live(), sketch, 3000)
+    assert cut.coverage.shape == (500, 1000) and (cut.coverage == 1).all() and cut.scale == pytest.approx(1 / 3)
+    assert room.cutting.cut("tree", Live(), None, 60).coverage[0, 0] == 0.25
+    assert room.cutting.cut("boat", Live(), sketch, 3000) is None and room.cutting.cut("boat", None, None, 60) is None
+
+
+def test_the_veil_is_there_while_a_matte_is_drawn(room, extension, scene, live, monkeypatch):
+    overlay, drawing, layer = scene.stillwater_overlay, scene.stillwater.drawing, live.layers[0]
+    assert room.draw.veil_of(scene, live) is None and room.draw.cut_layer(scene, live) == ""
+    layer.matte.form = "scribbles"
+    drawing.role, drawing.picture_id, drawing.layer_id = "foreground", live.id, layer.id
+    key, make = room.draw.veil_of(scene, live)
+    assert make().shape == (8, 16, 4) and make()[4, 2, 3] == 0 < make()[4, 14, 3]
+    overlay.checker = True
+    other, make = room.draw.veil_of(scene, live)
+    assert other != key and make()[4, 14, 3] == 1
+    lines = {line.colour for line in room.draw.of(scene, live)}
+    assert {room.shapes.BLACK, room.shapes.WHITE} <= lines and bpy.app.timers.is_registered(room.draw.march)
+    overlay.tint = overlay.checker = False
+    assert room.draw.veil_of(scene, live) is None
+    drawing.role, overlay.tint = "sway_line", True
+    assert room.draw.veil_of(scene, live) is None and room.draw.march() is None
+    bpy.app.timers.unregister(room.draw.march)
+    drawing.role = ""

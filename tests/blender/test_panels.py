@@ -151,8 +151,9 @@ def test_the_menu_of_new_layers_offers_each_motion_s_presets(picture):
 
 def test_the_menu_of_layers_holds_what_has_no_button(picture):
     wanted = {"duplicate_layer", "copy_layers", "paste_layers", "move_layer", "select_layers", "show_layers"}
+    wanted |= {"copy_to_selected", "layers_from_mask", "layers_from_pass"}
     drawn = menu("STILLWATER_MT_layers")
-    assert {f"stillwater.{name}" for name in wanted | {"copy_to_selected"}} == set(drawn.operators)
+    assert {f"stillwater.{name}" for name in wanted} == set(drawn.operators)
     assert menu("STILLWATER_MT_motion").texts == ["Still", "Sway", "Ripple", "Bob", "Drift"]
 
 

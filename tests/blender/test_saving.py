@@ -142,6 +142,19 @@ def test_frames_that_can_t_be_moved_stay_and_are_shown(extension, baked, tmp_pat
     shows_its_frame(tmp_path)
 
 
+def test_steps_from_before_the_first_save_show_the_frames_where_they_are_now(baked, tmp_path):
+    bpy.ops.ed.undo_push(message="Baked")
+    active().wind.speed = 11
+    bpy.ops.ed.undo_push(message="Wind")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    assert not baked.exists()
+    for step in (bpy.ops.ed.undo, bpy.ops.ed.redo):
+        step()
+        state = active().tree.stillwater
+        assert state.folder.startswith("//stillwater") and state.there == "5-8"
+        shows_its_frame(tmp_path)
+
+
 def test_blender_s_startup_file_takes_nothing_along(baked, tmp_path):
     before = [getattr(owner, name) for owner, name in paths.each(active())]
     bpy.ops.wm.save_homefile()

@@ -91,7 +91,7 @@ def test_the_panels_speak_the_language_of_the_interface(extension, scene, transl
     extension.bake.outdated.look(scene, picture)
     shown = texts()
     for sentence in ("2 layers are selected", "Add a layer with Ripple: the water it floats on",
-                     "Choose its matte: which part of the picture it is", "Not baked yet"):
+                     "Draw on it with Foreground, or choose its matte: which part of the picture it is", "Not baked yet"):
         assert f"~{sentence}" in shown, sentence
     picture.layers.clear()
     assert "~Add a layer for each part of the picture that moves" in texts()

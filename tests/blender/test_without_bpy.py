@@ -14,8 +14,8 @@ import pytest
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 PLAIN = sorted((ADDON / "recipe").glob("*.py"))
 PLAIN += [ADDON / "bake" / name for name in ("worker.py", "progress.py", "folders.py", "report.py", "collect.py")]
-PLAIN += [ADDON / name for name in ("compositor/frames.py", "layers/missing.py")]
-PLAIN += [ADDON / "overlay" / name for name in ("outline.py", "shapes.py", "water.py")]
+PLAIN += [ADDON / name for name in ("compositor/frames.py", "layers/missing.py", "layers/placing.py", "layers/label_maps.py", "play/draft.py")]
+PLAIN += [ADDON / "overlay" / name for name in ("cutting.py", "outline.py", "shapes.py", "water.py")]
 WITH_NUMPY = [ADDON / f"strokes/{name}.py" for name in ("control_points", "curves", "lines", "projection", "roles")]
 
 

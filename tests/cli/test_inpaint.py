@@ -28,7 +28,9 @@ def test_a_hole_is_filled(command, files):
 
 def test_patch_radius_and_seed_are_those_of_the_function(command, files):
     options = ["--patch", "7", "--radius", "40", "--seed", "3"]
-    assert command("inpaint", files / "picture.png", files / "hole.png", "-o", files / "out.exr", *options).returncode == 0
+    assert (
+        command("inpaint", files / "picture.png", files / "hole.png", "-o", files / "out.exr", *options).returncode == 0
+    )
     picture, hole = stillwater.read(files / "picture.png"), stillwater.read(files / "hole.png")[..., 0]
     expected = stillwater.inpaint(picture, hole, patch=7, radius=40, seed=3)
     assert np.abs(stillwater.read(files / "out.exr") - expected).max() < 2e-3
@@ -57,7 +59,10 @@ def test_files_that_are_not_there_or_don_t_fit_are_a_sentence(command, files):
     assert (done.returncode, done.stderr) == (2, "stillwater: hole: 5 x 4 is not the size of the picture, 80 x 60\n")
     Image.new("L", (80, 60), 255).save(files / "all.png")
     done = command("inpaint", files / "picture.png", files / "all.png", "-o", files / "out.png")
-    assert (done.returncode, done.stderr) == (2, "stillwater: hole: it covers the whole picture; nothing is left to copy from\n")
+    assert (done.returncode, done.stderr) == (
+        2,
+        "stillwater: hole: it covers the whole picture; nothing is left to copy from\n",
+    )
 
 
 def test_what_can_t_be_written_is_a_failure(command, files):

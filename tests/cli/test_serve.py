@@ -66,7 +66,12 @@ def server():
 @pytest.fixture
 def large(scene, tmp_path):
     """A recipe of a picture that takes a second or two to be cut."""
-    path = scene(lambda recipe: recipe.update(view={"horizon": [[0, 20], [48, 20]]}))
+    def change(recipe):
+        recipe.update(view={"horizon": [[0, 20], [48, 20]]})
+        for layer in recipe["layers"]:
+            layer["fill"] = {"method": "none"}
+
+    path = scene(change)
     for name in ("picture.png", "labels.png", "tree.png"):
         image = Image.open(tmp_path / name)
         image.resize((1920, 1440), Image.Resampling.NEAREST).save(tmp_path / name)
@@ -81,7 +86,7 @@ def test_what_is_asked_for_lies_in_the_cache(server, scene, recipe, tmp_path):
     server.ask(prepare(7, scene(), longest=24))
     done, before = server.hear("done")
     assert done["id"] == 7 and (tmp_path / FOLDER / done["key"] / "meta.json").exists()
-    assert {answer["event"] for answer in before} == {"preparing", "warning"} and {answer["id"] for answer in before} == {7}
+    assert {answer["event"] for answer in before} == {"preparing"} and {answer["id"] for answer in before} == {7}
     shares = [answer["share"] for answer in before if answer["event"] == "preparing"]
     assert shares == sorted(shares) and (shares[0], shares[-1]) == (0, 1)
     live = Live()
@@ -155,7 +160,7 @@ def test_a_wrong_recipe_is_a_sentence_and_the_next_is_prepared(server, scene, tm
 def test_a_request_is_cancelled_at_work_and_while_it_waits(server, large, scene):
     other = scene(lambda recipe: recipe.update(seed=8), "other.json")
     server.ask(prepare(1, large), prepare(2, other))
-    while server.hear("preparing", 1)[0]["what"] != "cutting the layers":
+    while not server.hear("preparing", 1)[0]["what"].startswith("cutting out"):
         pass
     asked = time.monotonic()
     server.ask({"id": 2, "do": "cancel"}, {"id": 1, "do": "cancel"})
@@ -188,7 +193,7 @@ def test_it_ends_with_its_standard_input(server, large):
 @pytest.mark.parametrize("how, code", [(signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)])
 def test_what_a_killed_one_left_is_no_obstacle(server, large, how, code):
     server.ask(prepare(1, large))
-    while server.hear("preparing", 1)[0]["what"] != "cutting the layers":
+    while not server.hear("preparing", 1)[0]["what"].startswith("cutting out"):
         pass
     server.process.send_signal(how)
     assert server.process.wait(2) == code
@@ -216,3 +221,23 @@ def test_the_prepared_picture_is_not_read_twice(server, large, recipe):
     whats = [answer["what"] for answer in before if answer["event"] == "preparing"]
     assert whats == ["making the layers small", "making clouds endless", "done"]
     assert np.asarray(Image.open(large.parent / "picture.png")).shape == (1440, 1920, 3)
+
+
+def test_a_matte_comes_at_once_and_is_not_cancelled_by_the_prepare_after_it(server, large):
+    server.ask(prepare(1, large), {"id": 2, "do": "matte", "recipe": str(large), "layer": "tree"}, prepare(3, large))
+    matte, before = server.hear("matte")
+    assert matte["id"] == 2 and matte["layer"] == "tree"
+    assert [answer["id"] for answer in before if answer["event"] == "cancelled"] == [1]
+    assert (large.parent / FOLDER / matte["key"] / "matte.npy").exists()
+    assert server.hear("done", 3)
+
+
+def test_a_newer_matte_cancels_the_older(server, large):
+    server.ask(*({"id": i, "do": "matte", "recipe": str(large), "layer": name} for i, name in ((1, "tree"), (2, "boat"))))
+    _, before = server.hear("matte", 2)
+    assert "cancelled" in {answer["event"] for answer in before if answer["id"] == 1}
+
+
+def test_a_matte_of_no_layer_is_a_sentence(server, large):
+    server.ask({"id": 1, "do": "matte", "recipe": str(large), "layer": "bush"})
+    assert server.hear("error")[0]["sentence"] == 'layer: "bush" is not one of boat, reflection, tree, sea, clouds'

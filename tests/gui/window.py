@@ -249,10 +249,11 @@ class Window:
         yield from self.key("RET")
 
     def open_file(self, path: Path, button: str):
-        """Types a file's path into the open file browser, and clicks on the button that ends it."""
+        """Types a file's path into the open file browser, and clicks on the button that ends it, where it is needed."""
         yield from self.fill(self.box("FILE_BROWSER", "UI").middle, str(path))
         yield from self.key("RET")  # what it made of the path stands in the field for the name, which takes letters now
-        yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
+        if self.has("FILE_BROWSER"):
+            yield from self.click(button, self.box("FILE_BROWSER", "EXECUTE"))
 
     def save_file(self, path: Path, button: str):
         """Types folder and name of a file into the open file browser, and clicks on the button that ends it."""

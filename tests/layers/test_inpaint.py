@@ -39,7 +39,9 @@ PICTURE, HOLE = painted(), disc((70, 90), 33, 48, 13)
 
 def copied_from(filled, picture, hole):
     """The places that the hole's pixels are copies of."""
-    place = {pixel.tobytes(): at for at, pixel in np.ndenumerate(np.ascontiguousarray(picture[..., :3]).view("V12")[..., 0])}
+    place = {
+        pixel.tobytes(): at for at, pixel in np.ndenumerate(np.ascontiguousarray(picture[..., :3]).view("V12")[..., 0])
+    }
     pixels = np.ascontiguousarray(filled[..., :3]).view("V12")[..., 0][hole]
     return np.array([place[pixel.tobytes()] for pixel in pixels])
 
@@ -99,8 +101,12 @@ def test_the_plain_way_copies_the_same(tmp_path):
     np.savez(tmp_path / "in.npz", picture=opaque(PICTURE), hole=HOLE.astype(np.float32))
     program = (f"import numpy as np; from stillwater import _stillwater as e; d = np.load(r'{tmp_path}/in.npz');"
                f"np.save(r'{tmp_path}/out.npy', e.inpaint(d['picture'], d['hole'], blend=False))")  # fmt: skip
-    subprocess.run([sys.executable, "-c", program], env={**os.environ, "STILLWATER_CPU": "sse4.2"}, check=True, timeout=60)
-    assert np.array_equal(np.load(tmp_path / "out.npy"), engine.inpaint(opaque(PICTURE), HOLE.astype(np.float32), blend=False))
+    subprocess.run(
+        [sys.executable, "-c", program], env={**os.environ, "STILLWATER_CPU": "sse4.2"}, check=True, timeout=60
+    )
+    assert np.array_equal(
+        np.load(tmp_path / "out.npy"), engine.inpaint(opaque(PICTURE), HOLE.astype(np.float32), blend=False)
+    )
 
 
 def smooth(shade):
@@ -134,7 +140,10 @@ def checker(period):
 STRAIGHT = {
     **{f"edge {degrees}": (edge(degrees), 0.04) for degrees in (0, 7, 18, 30, 45, 63, 90)},
     **{f"bar {degrees}": (bar(degrees), 0.06) for degrees in (0, 22, 45)},
-    **{f"grating {period} {degrees}": (grating(period, degrees), 0.03) for period, degrees in [(8, 0), (12, 90), (10, 45), (9, 27)]},
+    **{
+        f"grating {period} {degrees}": (grating(period, degrees), 0.03)
+        for period, degrees in [(8, 0), (12, 90), (10, 45), (9, 27)]
+    },
     **{f"checker {period}": (checker(period), 0.001) for period in (6, 8, 13)},
 }
 
@@ -218,13 +227,20 @@ def with_nan(array, y, x):
         ({"hole": np.zeros((4, 5, 2))}, "hole: an array of 4 x 5 x 2 is not height x width"),
         ({"source": np.zeros((4, 5))}, "source: 5 x 4 is not the size of the picture, 90 x 70"),
         ({"source": HOLE}, "source: there is no patch of 9 x 9 px to copy from, 2 px or more from the hole"),
-        ({"hole": ~disc(HOLE.shape, 35, 45, 3)}, "hole: there is no patch of 9 x 9 px to copy from, 2 px or more from the hole"),
-        ({"radius": 5}, r"radius: within 5 px of \(\d+, \d+\) there is nothing to copy from; the nearest is \d+ px away"),
+        (
+            {"hole": ~disc(HOLE.shape, 35, 45, 3)},
+            "hole: there is no patch of 9 x 9 px to copy from, 2 px or more from the hole",
+        ),
+        (
+            {"radius": 5},
+            r"radius: within 5 px of \(\d+, \d+\) there is nothing to copy from; the nearest is \d+ px away",
+        ),
         ({"radius": 0}, r"radius: 0 is not above 0 \(px\)"),
         ({"radius": float("nan")}, r"radius: nan is not above 0 \(px\)"),
         ({"patch": 8}, r"patch: 8 is not odd \(px\)"),
         ({"patch": 1}, r"patch: 1 is not between 3 and 63 \(px\)"),
         ({"patch": 65}, r"patch: 65 is not between 3 and 63 \(px\)"),
+        ({"seed": -1}, "seed: -1 is not between 0 and 9223372036854775807"),
         ({"grow": -1}, r"grow: -1 is not between 0 and 1000 \(px\)"),
         ({"picture": with_nan(PICTURE, 3, 4)}, r"picture: pixel \(4, 3\) is not a finite number"),
         ({"hole": with_nan(HOLE, 3, 4)}, r"hole: pixel \(4, 3\) is not a finite number"),

@@ -4,8 +4,8 @@
 
 Pictures with a mask beside them (imageN and maskN, NAME_raw and NAME_mask) are filled there; into all others a hole is
 cut, at most --cut of them, evenly chosen. The straight set of tests/layers/test_inpaint.py comes along. The others:
-G'MIC's inpaint and inpaint_matchpatch (Debian's gmic), cv::xphoto's shift map and PyPatchMatch, in an environment of their
-own. Who is not there is left out, and said. Sheets lie in the output's folder: picture, then ours, then the others.
+G'MIC's inpaint and inpaint_matchpatch (Debian's gmic), cv::xphoto's shift map and PyPatchMatch, in an environment
+of their own. Who is not there is left out, and said. Sheets lie in the output's folder: picture, then ours, then the others.
 """
 
 from __future__ import annotations
@@ -81,14 +81,20 @@ def lobed(shape: tuple[int, ...], seed: int) -> Mask:
     y, x = np.mgrid[: shape[0], : shape[1]]
     along, across = (x / shape[1] - rng.uniform(0.4, 0.6)) / 0.11, (y / shape[0] - rng.uniform(0.4, 0.6)) / 0.16
     angle = np.arctan2(across, along)
-    return np.hypot(along, across) < 1 + sum(rng.normal(0, 0.12) * np.cos(k * angle + rng.uniform(0, 6.28)) for k in range(2, 7))
+    return np.hypot(along, across) < 1 + sum(
+        rng.normal(0, 0.12) * np.cos(k * angle + rng.uniform(0, 6.28)) for k in range(2, 7)
+    )
 
 
 def cases_in(folders: list[Path], cut: int) -> Iterator[Case]:
-    paths = sorted(path for folder in folders for path in folder.rglob("*") if path.suffix.lower() in (".jpg", ".jpeg", ".png"))
+    paths = sorted(
+        path for folder in folders for path in folder.rglob("*") if path.suffix.lower() in (".jpg", ".jpeg", ".png")
+    )
     whole = []
     for path in paths:
-        mask = path.with_name(re.sub(r"image(?=\d)|_raw\b", lambda m: m[0].replace("image", "mask").replace("raw", "mask"), path.name))
+        mask = path.with_name(
+            re.sub(r"image(?=\d)|_raw\b", lambda m: m[0].replace("image", "mask").replace("raw", "mask"), path.name)
+        )
         if mask == path:
             whole.append(path)
         elif mask.exists():
@@ -177,7 +183,8 @@ def report(title: str, results: dict[str, list[Figures]], seconds: dict[str, flo
     for name, figures in results.items():
         error = [f.error for f in figures if not np.isnan(f.error)]
         means = np.mean([f.coherence for f in figures]), np.mean([f.repetition for f in figures])
-        print(f"  {name:<26}{means[0]:>10.2f}{means[1]:>12.3f}{np.mean(error) if error else np.nan:>9.4f}{seconds[name]:>9.1f}")
+        mean = np.mean(error) if error else np.nan
+        print(f"  {name:<26}{means[0]:>10.2f}{means[1]:>12.3f}{mean:>9.4f}{seconds[name]:>9.1f}")
 
 
 def main() -> None:
@@ -187,7 +194,10 @@ def main() -> None:
     parser.add_argument("--cut", type=int, default=20, help="how many holes are cut (20)")
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
-    fills = {"stillwater": lambda picture, hole: stillwater.inpaint(picture, hole)[..., :3], **others(given.output / "venv")}
+    fills = {
+        "stillwater": lambda picture, hole: stillwater.inpaint(picture, hole)[..., :3],
+        **others(given.output / "venv"),
+    }
     strips = []
     for title, cases in (("pictures", cases_in(given.folders, given.cut)), ("straight", straight_cases())):
         results, seconds = defaultdict(list), defaultdict(float)

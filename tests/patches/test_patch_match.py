@@ -34,11 +34,15 @@ def distance(target, source, at, there):
 
 def by_looking_everywhere(target, source):
     """The least distance of each patch, by its definition."""
-    windows = np.lib.stride_tricks.sliding_window_view(as_bytes(source), (PATCH, PATCH), (0, 1)).reshape(-1, 4 * PATCH * PATCH)
+    windows = np.lib.stride_tricks.sliding_window_view(as_bytes(source), (PATCH, PATCH), (0, 1)).reshape(
+        -1, 4 * PATCH * PATCH
+    )
     wanted = np.lib.stride_tricks.sliding_window_view(as_bytes(target), (PATCH, PATCH), (0, 1))
     shape = wanted.shape[:2]
     wanted = wanted.reshape(-1, 4 * PATCH * PATCH)
-    apart = (wanted**2).sum(1)[:, None] + (windows**2).sum(1)[None] - 2 * (wanted.astype(float) @ windows.T.astype(float))
+    apart = (
+        (wanted**2).sum(1)[:, None] + (windows**2).sum(1)[None] - 2 * (wanted.astype(float) @ windows.T.astype(float))
+    )
     return apart.min(axis=1).round().astype(np.int64).reshape(shape)
 
 
@@ -132,9 +136,12 @@ def test_seeds_differ():
 def test_the_plain_way_gives_the_same_bytes(tmp_path, patch):
     np.savez(tmp_path / "in.npz", target=TARGET, source=SOURCE)
     program = (f"import numpy as np; from stillwater import _stillwater as e; d = np.load(r'{tmp_path}/in.npz');"
-               f"o, a = e.patch_match(d['target'], d['source'], np.ones((50, 60), np.float32), np.zeros((40, 70, 2), np.int16),"
+               f"o, a = e.patch_match(d['target'], d['source'], np.ones((50, 60), np.float32),"
+               f" np.zeros((40, 70, 2), np.int16),"
                f" patch={patch}, rounds=3); np.savez(r'{tmp_path}/out.npz', o=o, a=a)")  # fmt: skip
-    subprocess.run([sys.executable, "-c", program], env={**os.environ, "STILLWATER_CPU": "sse4.2"}, check=True, timeout=60)
+    subprocess.run(
+        [sys.executable, "-c", program], env={**os.environ, "STILLWATER_CPU": "sse4.2"}, check=True, timeout=60
+    )
     out = np.load(tmp_path / "out.npz")
     offset, apart = match(TARGET, SOURCE, patch=patch, rounds=3)
     assert np.array_equal(out["o"], offset) and np.array_equal(out["a"], apart)

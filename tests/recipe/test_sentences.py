@@ -116,6 +116,10 @@ SENTENCES = [
     ((*TREE, "matte"), {"labels": "l.png"}, "layers[0].matte.value: missing"),
     ((*TREE, "matte"), {"labels": "l.png", "value": 0.5}, "layers[0].matte.value: 0.5 is not a whole number"),
     ((*TREE, "fill"), {"method": "magic"}, 'layers[0].fill.method: "magic" is not "exemplar" or "none"'),
+    ((*TREE, "fill"), {"method": "exemplar", "patch": 8}, "layers[0].fill.patch: 8 is not odd (px)"),
+    ((*TREE, "matte"), {"trimap": "t.png", "method": "knn"},
+     'layers[0].matte.method: "knn" is not "bayesian" or "closed-form"'),
+    ((*TREE, "matte"), {"lasso": [[0, 0], [9, 0]]}, "layers[0].matte.lasso: 2 entries are not 3 or more"),
     ((*TREE, "fill"), {"method": "exemplar", "source": {"file": 3}}, "layers[0].fill.source.file: 3 is not a text"),
     (("output", "name"), "a/b", 'output.name: "a/b" is not a file name'),
     # what has no engine yet
@@ -127,12 +131,6 @@ SENTENCES = [
      'layers[4].motion.type: "library" has no engine yet (these have: still, sway, ripple, bob, drift)'),
     ((*SKY, "motion"), {"type": "keyframes", "keys": [{"frame": 1, "file": "k.png"}], "guide": {"strokes": []}},
      'layers[4].motion.type: "keyframes" has no engine yet (these have: still, sway, ripple, bob, drift)'),
-    ((*TREE, "matte"), {"trimap": "t.png"},
-     "layers[0].matte.trimap: this form of matte has no engine yet (these have: file, labels)"),
-    ((*TREE, "matte"), {"scribbles": {"foreground": [{"points": [[1, 1], [2, 2, 0.5]]}]}},
-     "layers[0].matte.scribbles: this form of matte has no engine yet (these have: file, labels)"),
-    ((*TREE, "matte"), {"lasso": [[0, 0], [9, 0], [0, 9]]},
-     "layers[0].matte.lasso: this form of matte has no engine yet (these have: file, labels)"),
 ]
 
 

@@ -7,8 +7,8 @@ import copy
 
 import pytest
 from stillwater.recipe import parse
-from stillwater.recipe.engines import MATTES, MOTIONS
-from stillwater.recipe.mattes import ExemplarFill, FileFill, NoFill
+from stillwater.recipe.engines import MOTIONS
+from stillwater.recipe.mattes import ExemplarFill, FileFill, Matte, NoFill
 from stillwater.recipe.picture import Follows, Layer, Output, Recipe, View, Wind
 from stillwater.render import keys as keys_module
 from stillwater.render.keys import FrameKeys, stack_key
@@ -17,6 +17,10 @@ from stillwater.render.resolve import Timeline
 FRAMES = range(1, 13)
 ALL, NONE = set(FRAMES), set()
 BOAT, REFLECTION, TREE, SEA, CLOUDS = (f"layers.{i}" for i in range(5))
+
+
+SCRIBBLES = {"foreground": [{"points": [[8, 20]]}], "background": [{"points": [[30, 5]]}]}
+OUTLINE = [[2, 2], [14, 2], [14, 30], [2, 30]]
 
 
 def key_list(recipe, digests=None, size=(48, 36), scale=1.0):
@@ -81,12 +85,19 @@ TABLE = [
     (f"{TREE}.matte", {"labels": "labels.png", "value": 0}, ALL),
     (f"{TREE}.matte.file", "other.png", ALL),
     (f"{TREE}.matte.channel", "R", ALL),
+    (f"{TREE}.matte", {"trimap": "other.png"}, ALL),
+    (f"{TREE}.matte", {"scribbles": SCRIBBLES}, ALL),
+    (f"{TREE}.matte", {"lasso": OUTLINE}, ALL),
     (f"{BOAT}.matte.labels", "other.png", ALL),
     (f"{BOAT}.matte.value", 5, ALL),
     (f"{TREE}.fill", {"method": "none"}, ALL),
     (f"{TREE}.fill", {"file": "other.png"}, ALL),
-    (f"{TREE}.fill", {"method": "exemplar", "patch": 11, "radius": 5, "grow": 1, "source": {"file": "other.png"},
-                      "touch_up": [{"stroke": {"points": [[1, 1]]}}]}, NONE),  # push-pull reads none of it
+    (f"{TREE}.fill", {"method": "exemplar"}, NONE),  # it is what it was
+    (f"{TREE}.fill", {"method": "exemplar", "patch": 11}, ALL),
+    (f"{TREE}.fill", {"method": "exemplar", "radius": 5}, ALL),
+    (f"{TREE}.fill", {"method": "exemplar", "grow": 1}, ALL),
+    (f"{TREE}.fill", {"method": "exemplar", "source": {"file": "other.png"}}, ALL),
+    (f"{TREE}.fill", {"method": "exemplar", "touch_up": [{"stroke": {"points": [[1, 1]]}}]}, ALL),
     (f"{CLOUDS}.fill", {"method": "none"}, NONE),  # nothing is behind the last layer
     # motions
     (f"{TREE}.motion", {"type": "still"}, ALL),
@@ -141,19 +152,38 @@ def test_a_field_changes_the_frames_that_read_it(wide, place, value, frames):
     assert changed(wide, place, value) == frames
 
 
+@pytest.mark.parametrize(
+    "matte, field, value",
+    [
+        ({"trimap": "tree.png"}, "trimap", "other.png"),
+        ({"trimap": "tree.png"}, "method", "bayesian"),
+        ({"scribbles": SCRIBBLES}, "scribbles", {**SCRIBBLES, "background": [{"points": [[31, 5]]}]}),
+        ({"scribbles": SCRIBBLES}, "method", "bayesian"),
+        ({"lasso": OUTLINE}, "lasso", [*OUTLINE, [1, 8]]),
+        ({"lasso": OUTLINE}, "feather", 3),
+        ({"lasso": OUTLINE}, "snap", 3),
+        ({"lasso": OUTLINE}, "method", "bayesian"),
+    ],
+)
+def test_a_field_of_a_matte_that_is_solved_changes_all_frames(wide, matte, field, value):
+    wide["layers"][2]["matte"] = matte
+    assert changed(wide, f"{TREE}.matte.{field}", value) == ALL
+
+
 def test_the_table_names_every_field():
     wanted = {f"{name}" for name in Recipe.__struct_fields__} - {"stillwater", "wind", "view", "output", "layers"}
     for place, kind in (("wind", Wind), ("view", View), ("output", Output), ("layer", Layer), ("follows", Follows)):
         wanted |= {f"{place}.{name}" for name in kind.__struct_fields__}
     wanted |= {f"motion.{name}" for kind in MOTIONS for name in kind.__struct_fields__}
-    wanted |= {f"matte.{name}" for kind in MATTES for name in kind.__struct_fields__}
+    wanted |= {f"matte.{name}" for kind in Matte.forms.values() for name in kind.__struct_fields__}
     named = set()
     for place, value, _ in TABLE:
         steps = [step for step in place.split(".") if not step.isdigit()]
         steps[0] = "layer" if steps[0] == "layers" else steps[0]
         named |= {".".join(steps[-2:]), steps[-1]}
-        if steps[-1] in ("motion", "fill") and isinstance(value, dict):
+        if steps[-1] in ("motion", "fill", "matte") and isinstance(value, dict):
             named |= {f"{steps[-1]}.{name}" for name in value}
+    named |= {f"matte.{name}" for name in ("feather", "snap", "method")}  # in the test above
     assert wanted - named == set()
     fills = {name for kind in (ExemplarFill, FileFill, NoFill) for name in kind.__struct_fields__}
     assert {f"fill.{name}" for name in fills} - named == set()

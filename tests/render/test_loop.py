@@ -206,7 +206,6 @@ def test_warnings_come_with_every_run(scene, tmp_path):
     expected = [
         "picture: 13 pixels are not finite numbers and count as 0",
         "layers[0].matte: covers no pixel; the layer is not seen",
-        "layers[0].fill, layers[1].fill, layers[3].fill: exemplar filling has no engine yet; filled by a smooth push-pull",
         "wind.speed: differs between frames 1 and 6; blended over the last 1 of 6 frames, so that the loop closes",
     ]
     assert sentences(run(path)) == expected

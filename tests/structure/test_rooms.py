@@ -57,3 +57,9 @@ def test_the_operating_system_is_called_in_one_file():
     system = r"#include <(unistd|signal|csignal|sys/\w+|windows|fcntl|io)\.?h?>"
     callers = [path for path in SOURCES if re.search(system, path.read_text())]
     assert [named(path) for path in callers] == ["native/core/process.cpp"]
+
+
+def test_the_extension_finds_its_own_name_in_one_place():
+    """Blender's preferences and folders of an extension are found by it."""
+    finders = [path for path in (REPOSITORY / "addon").rglob("*.py") if "__package__" in path.read_text()]
+    assert [named(path) for path in finders] == ["addon/preferences/__init__.py"]

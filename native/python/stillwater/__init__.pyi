@@ -7,6 +7,9 @@ from .inpainting import inpaint as inpaint
 from .inpainting import make_cyclic as make_cyclic
 from .layers import displace as displace
 from .layers import over as over
+from .matting import foreground as foreground
+from .matting import matte as matte
+from .matting import trimap as trimap
 from .motion import Ripple as Ripple
 from .motion import Wind as Wind
 from .motion import bob as bob
@@ -14,6 +17,7 @@ from .motion import drift as drift
 from .motion import ripple as ripple
 from .motion import sway as sway
 from .motion import wave_heights as wave_heights
+from .peeling import peel as peel
 from .recipe import Document as Document
 from .recipe import RecipeError as RecipeError
 from .recipe import load as load

@@ -34,7 +34,7 @@ def inpaint(
         hole: height x width, bool or 0..1; filled where it is at least one half.
         patch: side of the patches that are compared, px, odd, 3..63. About the size of the texture's details.
         radius: how far a patch may come from, px; None = from anywhere.
-        seed: of the random search.
+        seed: of the random search, 0 or more.
         source: height x width, bool or 0..1; patches come from where it is at least one half. None = from anywhere.
         grow: patches come from no nearer to the hole's edge than this, px, 0..1000. Never changes pixels of the result.
         progress: is called with a phase's name and the share of the whole that is done; answers False to cancel.
@@ -43,8 +43,8 @@ def inpaint(
         height x width x 4, straight alpha. Pixels outside the hole are those of the picture, bit by bit.
 
     Raises:
-        ValueError: another shape, size, or range than above; numbers that are not finite; a hole that covers everything;
-            a patch larger than the picture; nothing to copy from (within the radius).
+        ValueError: another shape, size, or range than above; numbers that are not finite; a hole that covers
+            everything; a patch larger than the picture; nothing to copy from (within the radius).
         stillwater.Cancelled: `progress` said so.
 
     Source: Criminisi, Perez and Toyama 2003, equations 1 - 3 (order); Barnes et al. 2009 (search); Wexler et al. 2007
@@ -53,8 +53,8 @@ def inpaint(
     given = _with_alpha(picture)
     filled = _straight(
         _stillwater.inpaint(
-            _premultiplied(given), np.asarray(hole, np.float32), patch=patch, radius=radius, seed=seed, grow=grow,
-            source=None if source is None else np.asarray(source, np.float32), progress=progress,
+            _premultiplied(given), np.asarray(hole, np.float32), patch=patch, radius=radius, seed=_checked(seed),
+            grow=grow, source=None if source is None else np.asarray(source, np.float32), progress=progress,
         )
     )  # fmt: skip
     return np.where(np.asarray(hole, np.float32)[..., None] >= 0.5, filled, given)
@@ -71,8 +71,8 @@ def make_cyclic(
 ) -> NDArray[np.float32]:
     """Make a picture endless: it wraps without a seam, so that it can drift for ever.
 
-    The picture is kept as it is and continued, along the axes asked for, by a strip a quarter of its side wide, filled as
-    `inpaint` does, that leads from its end to its beginning. The result is one period.
+    The picture is kept as it is and continued, along the axes asked for, by a strip a quarter of its side wide, filled
+    as `inpaint` does, that leads from its end to its beginning. The result is one period.
 
     Args:
         picture: height x width x 3 or 4, display-referred, straight alpha.
@@ -84,8 +84,8 @@ def make_cyclic(
         progress: see `inpaint`.
 
     Returns:
-        height x width x 4, straight alpha; sides that were continued are a quarter longer (rounded up). Known pixels are
-        those of the picture, bit by bit.
+        height x width x 4, straight alpha; sides that were continued are a quarter longer (rounded up). Known pixels
+        are those of the picture, bit by bit.
 
     Raises:
         ValueError: another shape or size; nothing known; numbers that are not finite; a patch out of its range.
@@ -96,14 +96,20 @@ def make_cyclic(
     given = _with_alpha(picture)
     whole = _straight(
         _stillwater.make_cyclic_by_exemplars(
-            _premultiplied(given), along_x=along_x, along_y=along_y, patch=patch, seed=seed, progress=progress,
-            known=None if known is None else np.asarray(known, np.float32),
+            _premultiplied(given), along_x=along_x, along_y=along_y, patch=patch, seed=_checked(seed),
+            progress=progress, known=None if known is None else np.asarray(known, np.float32),
         )
     )  # fmt: skip
     kept = True if known is None else np.asarray(known, np.float32)[..., None] > 0.5
     height, width = given.shape[:2]
     whole[:height, :width] = np.where(kept, given, whole[:height, :width])
     return whole
+
+
+def _checked(seed: int) -> int:
+    if not 0 <= seed < 2**63:
+        raise _stillwater.BadInput(f"seed: {seed} is not between 0 and {2**63 - 1}")
+    return seed
 
 
 def _with_alpha(picture: ArrayLike) -> NDArray[np.float32]:

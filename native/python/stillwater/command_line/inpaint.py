@@ -1,6 +1,5 @@
 """`stillwater inpaint PICTURE HOLE -o OUT`: a hole filled with what the rest of the picture is made of."""
 
-
 import argparse
 import re
 
@@ -8,8 +7,12 @@ import re
 def add_to(commands) -> None:
     parser = commands.add_parser("inpaint", help="fill a hole with what the rest of the picture is made of")
     parser.add_argument("file", metavar="PICTURE", help="anything OpenImageIO reads")
-    parser.add_argument("hole", metavar="HOLE", help="image of the picture's size; filled where it is light (half or more)")
-    parser.add_argument("-o", "--output", required=True, metavar="OUT", help="the filled picture (.png, .jpg, .tif, .exr)")
+    parser.add_argument(
+        "hole", metavar="HOLE", help="image of the picture's size; filled where it is light (half or more)"
+    )
+    parser.add_argument(
+        "-o", "--output", required=True, metavar="OUT", help="the filled picture (.png, .jpg, .tif, .exr)"
+    )
     parser.add_argument("--patch", type=int, default=9, metavar="PX", help="side of the patches compared, odd (9)")
     parser.add_argument("--radius", type=float, metavar="PX", help="how far a patch may come from (anywhere)")
     parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="another seed gives another filling (0)")

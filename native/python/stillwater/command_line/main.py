@@ -7,11 +7,11 @@ import sys
 
 from ..recipe import RecipeError
 from ..render.errors import Refused
-from . import check, info, inpaint, render, schema, serve
+from . import check, info, inpaint, layers, matte, render, schema, serve
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
-COMMANDS = (check, schema, info, render, serve, inpaint)
+COMMANDS = (check, schema, info, render, serve, layers, matte, inpaint)
 
 
 class Parser(argparse.ArgumentParser):

@@ -3,11 +3,14 @@
 A request is a line of JSON on standard input, an answer one on standard output, with the request's `id`:
 
     {"id": 1, "do": "prepare", "recipe": "lake/recipe.json", "folder": "lake", "longest": 960}
-    {"id": 1, "event": "preparing", "share": 0.4, "what": "cutting the layers"}
+    {"id": 1, "event": "preparing", "share": 0.4, "what": "cutting out tree"}
     {"id": 1, "event": "done", "key": ..., "files": ...}        or "error" with a sentence, or "cancelled"
+    {"id": 2, "do": "matte", "recipe": "lake/recipe.json", "layer": "boat"}
+    {"id": 2, "event": "matte", "key": ..., "layer": "boat"}
     {"id": 1, "do": "cancel"}
 
-One request is worked on at a time. A newer one for the same recipe cancels the older.
+One request is worked on at a time. A newer one for the same recipe cancels the older; but a matte, which is there at
+once, is not cancelled by the `prepare` that follows it.
 """
 
 import sys
@@ -37,6 +40,14 @@ class Prepare(Request):
     recipe: Annotated[str, Meta(min_length=1)]
     folder: Annotated[str, Meta(min_length=1)] | None = None
     longest: Annotated[int, Meta(ge=16, le=16384)] = 960
+
+
+class Matte(Request):
+    """The matte of a layer while it is drawn: near to what it will be, and soon. Fields as of Prepare."""
+
+    recipe: Annotated[str, Meta(min_length=1)]
+    layer: str
+    folder: Annotated[str, Meta(min_length=1)] | None = None
 
 
 class Cancel(Request):
@@ -79,8 +90,9 @@ class Server:
 
     def __init__(self, next_line, say, cache: Path | None = None, limit: int | None = None):
         self._next_line, self._say, self._cache, self._limit = next_line, say, cache, limit
-        self._waiting: list[Prepare] = []
-        self._at_work: Prepare | None = None
+        self._waiting: list[Prepare | Matte] = []
+        self._at_work: Prepare | Matte | None = None
+        self._pictures = None
         self._stopped = False
 
     def step(self) -> None:
@@ -95,37 +107,36 @@ class Server:
             if not line.strip():
                 continue
             try:
-                self._take(msgspec.json.decode(line, type=Prepare | Cancel))
+                self._take(msgspec.json.decode(line, type=Prepare | Matte | Cancel))
             except (msgspec.DecodeError, UnicodeDecodeError) as error:
                 self._say(_identifier(line), Error(f"request: {error}"))
 
-    def _take(self, request: Prepare | Cancel) -> None:
+    def _take(self, request: Prepare | Matte | Cancel) -> None:
         drop = self._same_id if isinstance(request, Cancel) else self._same_recipe
         for older in [each for each in self._waiting if drop(each, request)]:
             self._waiting.remove(older)
             self._say(older.id, Dropped())
         if self._at_work and drop(self._at_work, request):
             self._stopped = True
-        if isinstance(request, Prepare):
+        if not isinstance(request, Cancel):
             self._waiting.append(request)
 
     @staticmethod
-    def _same_id(older: Prepare, request: Request) -> bool:
+    def _same_id(older: Prepare | Matte, request: Request) -> bool:
         return older.id == request.id
 
     @staticmethod
-    def _same_recipe(older: Prepare, request: Prepare) -> bool:
-        return older.recipe == request.recipe
+    def _same_recipe(older: Prepare | Matte, request: Prepare | Matte) -> bool:
+        return older.recipe == request.recipe and (isinstance(older, Prepare) or isinstance(request, Matte))
 
     def _beat(self) -> None:
         self._listen(0)
         if self._stopped:
             raise Stopped
 
-    def _work(self, request: Prepare) -> None:
+    def _work(self, request: Prepare | Matte) -> None:
         from ..recipe import parse
         from ..render.cache import FOLDER, LIMIT, Cache
-        from ..render.preview import prepare
         from .show import sentence_of
 
         self._at_work, self._stopped = request, False
@@ -133,7 +144,7 @@ class Server:
             path = Path(request.recipe)
             document = parse(path.read_bytes(), Path(request.folder or path.parent).resolve())
             cache = Cache(self._cache or document.folder / FOLDER, self._limit or LIMIT)
-            for event in prepare(document, request.longest, cache, self._beat):
+            for event in self._events(request, document, cache):
                 self._beat()
                 self._say(request.id, event)
         except Stopped:
@@ -144,6 +155,15 @@ class Server:
             self._say(request.id, Error(sentence_of(error)))
         finally:
             self._at_work = None
+
+    def _events(self, request: Prepare | Matte, document, cache):
+        from ..render.preview import prepare
+        from ..render.quick_matte import Pictures, quick_matte
+
+        if isinstance(request, Prepare):
+            return prepare(document, request.longest, cache, self._beat)
+        self._pictures = self._pictures or Pictures()
+        return quick_matte(document, request.layer, cache, self._pictures, self._beat)
 
 
 def _identifier(line: bytes) -> int | None:

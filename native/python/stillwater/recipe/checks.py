@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from .engines import without_engine
 from .keyframes import Keyframes
+from .mattes import ExemplarFill
 from .picture import Layer, Recipe
 from .stochastic import Bob, Drift, Ripple, Sway
 
@@ -49,6 +50,8 @@ def _layer(recipe: Recipe, i: int, layer: Layer) -> Iterator[str]:
     yield from without_engine(layer, place)
     if layer.matte is None and i + 1 < len(recipe.layers):
         yield f"{place}.matte: missing (only the last layer needs none)"
+    if isinstance(layer.fill, ExemplarFill) and layer.fill.patch % 2 == 0:
+        yield f"{place}.fill.patch: {layer.fill.patch} is not odd (px)"
     if layer.follows is not None:
         yield from _known_layer(recipe, f"{place}.follows.layer", layer.follows.layer)
     match layer.motion:

@@ -2,12 +2,10 @@
 
 from collections.abc import Iterator
 
-from .mattes import FileMatte, LabelMatte
 from .picture import Layer
 from .stochastic import Bob, Drift, Ripple, Still, Sway
 
 MOTIONS = (Still, Sway, Ripple, Bob, Drift)
-MATTES = (FileMatte, LabelMatte)
 
 
 def without_engine(layer: Layer, place: str) -> Iterator[str]:
@@ -15,6 +13,4 @@ def without_engine(layer: Layer, place: str) -> Iterator[str]:
     if not isinstance(layer.motion, MOTIONS):
         ready = ", ".join(kind.__struct_config__.tag for kind in MOTIONS)
         yield f'{place}.motion.type: "{layer.motion.__struct_config__.tag}" has no engine yet (these have: {ready})'
-    if layer.matte is not None and not isinstance(layer.matte, MATTES):
-        form = next(key for key, kind in type(layer.matte).__mro__[1].forms.items() if isinstance(layer.matte, kind))
-        yield f"{place}.matte.{form}: this form of matte has no engine yet (these have: file, labels)"
+

@@ -36,7 +36,7 @@ def parse(source: bytes | str | Mapping, folder: str | os.PathLike = ".") -> Doc
 
     Looks at the recipe alone, not yet into its files. Throws RecipeError with every problem found.
     """
-    value = _decode(source)
+    value = decode(source)
     try:
         recipe = msgspec.convert(value, Recipe, dec_hook=_form)
     except msgspec.ValidationError as error:
@@ -58,7 +58,8 @@ def _form(kind: type, value):
     return msgspec.convert(value, form, dec_hook=_form)
 
 
-def _decode(source):
+def decode(source):
+    """JSON as bytes, text or already a dictionary. Throws RecipeError."""
     if isinstance(source, Mapping):
         return msgspec.to_builtins(dict(source))
     if not source.strip():

@@ -132,6 +132,10 @@ class Cache:
             if place.name == key or _facts(place).get("of") == key:
                 shutil.rmtree(place)
 
+    def facts(self) -> dict[str, dict]:
+        """The facts of all preparations by key; their arrays are not opened."""
+        return {place.name: _facts(place) for place in self._places()}
+
     def size(self) -> int:
         """Bytes of all preparations."""
         return sum(_size(place) for place in self._places())

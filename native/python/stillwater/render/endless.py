@@ -11,7 +11,7 @@ from ..recipe.stochastic import Drift
 from .cache import Cache, Prepared
 from .events import Preparing
 from .keys import ENGINES, hashed
-from .prepare import layer_images
+from .stack import layer_images
 
 PARTS = ("colour", "alpha")
 

@@ -40,6 +40,13 @@ class Warn(Event, tag="warning"):
     sentence: str
 
 
+class LayerFile(Event, tag="layer"):
+    """Of `layers`: a layer is written."""
+
+    name: str
+    path: str
+
+
 class Done(Event):
     """All frames are there."""
 
@@ -60,6 +67,13 @@ class Ready(Event, tag="done"):
 
     key: str
     files: dict[str, list]
+
+
+class QuickMatte(Event, tag="matte"):
+    """Of `serve`: a matte of this layer, near to what it will be, is in the cache."""
+
+    key: str
+    layer: str
 
 
 class Dropped(Event, tag="cancelled"):

@@ -10,14 +10,14 @@ import hashlib
 import msgspec
 
 from ..recipe import Recipe
-from ..recipe.mattes import ExemplarFill, FileFill, FileMatte
+from ..recipe.mattes import ExemplarFill, FileFill, FileMatte, LabelMatte, TrimapMatte
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
 from .resolve import Now, Timeline
 
 # Raised by who changes what an engine computes: frames and preparations made by another version are made again.
 ENGINES = {
     "picture": 1,
-    "layers": 4,
+    "layers": 6,
     "frame": 5,
     "wind": 1,
     "still": 1,
@@ -33,21 +33,23 @@ def hashed(facts) -> str:
     return hashlib.blake2b(msgspec.json.encode(facts, order="deterministic"), digest_size=16).hexdigest()
 
 
+def layer_keys(recipe: Recipe, digests: dict[str, str]) -> list[str]:
+    """Of each layer cut out of the picture, front first: holds what it and those in front of it depend on.
+
+    `digests`: the hash of each file the recipe names.
+    """
+    key = hashed(["picture", digests[recipe.picture], recipe.colour_space, _versions("picture", "layers")])
+    keys = []
+    for i, layer in enumerate(recipe.layers):
+        fill = fill_facts(layer.fill, digests) if i + 1 < len(recipe.layers) else None  # nothing lies behind the last
+        key = hashed([key, matte_facts(layer.matte, digests), fill, layer.feather])
+        keys.append(key)
+    return keys
+
+
 def stack_key(recipe: Recipe, digests: dict[str, str]) -> str:
-    """Of the layers cut out of the picture. `digests`: the hash of each file the recipe names."""
-    layers = [
-        {"matte": matte_facts(layer.matte, digests), "fill": fill_facts(layer.fill, digests), "feather": layer.feather}
-        for layer in recipe.layers
-    ]
-    layers[-1]["fill"] = None  # nothing lies behind the last layer
-    return hashed(
-        {
-            "picture": digests[recipe.picture],
-            "colour_space": recipe.colour_space,
-            "layers": layers,
-            "engines": _versions("picture", "layers"),
-        }
-    )
+    """Of all layers cut out of the picture."""
+    return hashed(["stack", layer_keys(recipe, digests)[-1]])
 
 
 class FrameKeys:
@@ -139,13 +141,22 @@ def matte_facts(matte, digests: dict[str, str]):
     """What a matte is, its file by what it holds."""
     if matte is None:
         return None
-    if isinstance(matte, FileMatte):
-        return ["file", digests[matte.file], matte.channel]
-    return ["labels", digests[matte.labels], matte.value]
+    match matte:
+        case FileMatte():
+            return ["file", digests[matte.file], matte.channel]
+        case LabelMatte():
+            return ["labels", digests[matte.labels], matte.value]
+        case TrimapMatte():
+            return ["trimap", digests[matte.trimap], matte.method]
+    return ["drawn", matte]
 
 
 def fill_facts(fill, digests: dict[str, str]):
     """How a hole is filled, a file by what it holds."""
-    if isinstance(fill, FileFill):
-        return ["file", digests[fill.file]]
-    return ["push-pull"] if isinstance(fill, ExemplarFill) else ["none"]
+    match fill:
+        case FileFill():
+            return ["file", digests[fill.file]]
+        case ExemplarFill():
+            source = matte_facts(fill.source, digests)
+            return ["exemplar", fill.patch, fill.radius, fill.grow, source, fill.touch_up]
+    return ["none"]

@@ -18,6 +18,7 @@ from .endless import Canvas, endless_key, ways_of
 from .prepare import check_view
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
+from .stack import layer_images
 
 
 class Live:
@@ -172,6 +173,12 @@ class Live:
             x, y, wide, high = self._preview.facts["colour"][index]
             whole[y : y + high, x : x + wide] = part[..., 3]
         return whole
+
+    def quick_matte(self, key: str) -> NDArray[np.uint8] | None:
+        """The matte that `serve` answered with this key, picture height x width, 0 .. 255, top row first; None where the
+        cache has it no more."""
+        kept = self._cache.find(key) if self._cache else None
+        return None if kept is None else kept.arrays["matte"]
 
     def _numbers(self, frame: int) -> tuple:
         if self._timeline is None:

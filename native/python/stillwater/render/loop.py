@@ -21,10 +21,11 @@ from .events import Done, Event, Frame, Preparing, Started, Warn
 from .keys import FrameKeys
 from .lock import Lock
 from .movie import Movie
-from .prepare import LARGEST_SIDE, Sources, boxes_of, check_view, cut, filled_otherwise
+from .prepare import LARGEST_SIDE, Sources, boxes_of, check_view
 from .reads import Reads, mark, read_mark
 from .renderer import Renderer, eight_bit
 from .resolve import Timeline
+from .stack import cut, find_stack
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ class Job:
         self.size = frame_size(self.sources.size, self.scale)
         self.keys = FrameKeys(self.timeline, self.sources.key, self.sources.size, self.scale)
         self.reads = Reads(self.timeline, self.sources.digests, self.keys.fixed)
-        self.stack: Prepared | None = None if order.fresh else self.cache.find(self.sources.key)
+        self.stack: Prepared | None = None if order.fresh else find_stack(self.cache, self.sources.key)
         self.images = None
         self.boxes: list = []  # of the layers in the picture; check_files() finds them
         self.has_alpha = False
@@ -71,7 +72,7 @@ class Job:
         else:
             said, self.boxes, self.has_alpha = (self.stack.facts[name] for name in ("warnings", "colour", "has_alpha"))
         check_view(self.recipe, self.boxes)
-        yield from map(Warn, [*said, *filled_otherwise(self.recipe), *self.timeline.warnings()])
+        yield from map(Warn, [*said, *self.timeline.warnings()])
 
     def prepare(self, claim) -> Iterator[Event]:
         """Leaves the layers in `stack`: from the cache, from another worker that is at it, or cut now."""
@@ -84,11 +85,9 @@ class Job:
                 lock.beat()
 
             if not self.order.fresh:
-                self.stack = self.cache.find(self.sources.key)
+                self.stack = find_stack(self.cache, self.sources.key)
             if self.stack is None:
-                layers = yield from cut(self.images, self.recipe, beat)
-                yield Preparing(0.8, "keeping the layers")
-                self.stack = self.cache.store(self.sources.key, layers)
+                self.stack = yield from cut(self.sources, self.images, self.cache, beat, self.order.fresh)
         self.images = None
 
     def ready(self, claim) -> Generator[Event, None, Renderer]:

@@ -1,8 +1,8 @@
 """How much memory a render will need at most, before it starts.
 
-The largest of three moments: cutting the layers (picture, mattes, the layers so far and the widest one at work),
-making them ready (those from the cache, mapped, and what is made of them), and rendering (what is ready, and the frame
-at work). A test holds it within 20 % of the measured peak.
+The largest of three moments: cutting the layers (picture, mattes, and the layer that takes most), making them ready
+(those from the cache, mapped, and what is made of them), and rendering (what is ready, and the frame at work). A test
+holds it within 20 % of the measured peak.
 """
 
 import math
@@ -10,12 +10,16 @@ import math
 import numpy as np
 
 from .. import _stillwater as engine
-from ..recipe.mattes import FileFill
+from ..recipe.mattes import FileFill, LabelMatte
+from .fills import Exemplar
 
 PROCESS = 170e6  # Python and the engine's libraries
 RGBA, PLANE = 16, 4  # bytes a pixel
 LEFT = RGBA + 3 * PLANE  # what is left of the picture, what hides it, what is solid, the matte at work
-AT_WORK = 6 * RGBA  # a layer that is being cut: its colour, the one behind, and the pyramids they come from
+# Measured, bytes a pixel while a layer is cut: filling from patches (of the picture, and of the hole), taking the colours
+# of a soft edge apart (of the layer and what surrounds it), solving a matte (of what is unknown).
+EXEMPLAR, HOLE, COLOURS, SOLVING = 91, 161, 103, 525
+SURROUNDED = 1.5**2  # a layer with what surrounds it, of the layer
 FRAME = 28  # picture, flow, matte
 WRITTEN, WRITTEN_AT_ONCE = 30, 64 << 20  # what is written of them; bytes of it that are held
 TRIED_OUT = 128  # pixels
@@ -37,7 +41,7 @@ def _behind(job) -> list:
     height, width = job.images.picture.shape[:2]
     step = math.ceil(max(width, height) / TRIED_OUT)
     picture = np.ascontiguousarray(job.images.picture[::step, ::step])
-    mattes = [None if matte is None else _small(matte, picture.shape[:2], step) for matte in job.images.mattes]
+    mattes = [None if matte is None else _small(matte.bound, picture.shape[:2], step) for matte in job.images.mattes]
     fills, feathers = [engine.Fill.push_pull] * len(mattes), [0.0] * len(mattes)
     layers = engine.peel(picture, mattes, fills, feathers)
     return [_grown(own, layer.box, step, (width, height)) for own, layer in zip(job.boxes, layers, strict=True)]
@@ -72,9 +76,16 @@ def _cutting(job, boxes) -> float:
     with_matte = [i for i, layer in enumerate(job.recipe.layers) if layer.matte is not None]
     mattes = PLANE * sum(_area(job.boxes[i]) for i in with_matte)
     fills = RGBA * pixels * sum(isinstance(layer.fill, FileFill) for layer in job.recipe.layers[:-1])
-    layers = RGBA * sum(map(_area, boxes)) * (2 if job.has_alpha else 1)
-    at_work = AT_WORK * max((_area(boxes[i]) for i in with_matte), default=0)
-    return pixels * (RGBA + LEFT) + mattes + fills + layers + at_work
+    at_work = max((_cutting_one(job, i, boxes[i]) for i in with_matte), default=0.0)
+    return pixels * (RGBA + LEFT) * (2 if job.has_alpha else 1) + mattes + fills + at_work
+
+
+def _cutting_one(job, i: int, box) -> float:
+    pixels = job.sources.size[0] * job.sources.size[1]
+    around = min(pixels, SURROUNDED * _area(box))
+    colours = 0.0 if isinstance(job.recipe.layers[i].matte, LabelMatte) and not job.recipe.layers[i].feather else COLOURS * around
+    filling = EXEMPLAR * pixels + HOLE * _area(box) if isinstance(job.images.fills[i], Exemplar) else 2 * RGBA * around
+    return max(colours, filling, SOLVING * getattr(job.images.mattes[i], "unknown", 0))
 
 
 def _rendering(job, boxes) -> float:

@@ -1,4 +1,4 @@
-"""From the files of a recipe to the layers cut out of its picture: read, checked, peeled, kept in the cache."""
+"""The files of a recipe, read and checked."""
 
 import os
 from collections.abc import Callable, Generator, Iterator
@@ -8,18 +8,22 @@ import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe import Document, Recipe, RecipeError
-from ..recipe.mattes import ExemplarFill, FileFill, FileMatte, LabelMatte
+from ..recipe.mattes import ExemplarFill, FileFill, Matte
+from ..recipe.picture import Layer
 from ..recipe.stochastic import Ripple
-from .cache import Cache, Prepared
+from .cache import Cache
 from .events import Preparing
-from .keys import stack_key
+from .fills import exemplar
+from .keys import layer_keys, stack_key
+from .mattes import Given, MatteReader, ToSolve
 
 LARGEST_SIDE = 16384
 
 
 @dataclass
 class Images:
-    """What the files hold: picture H x W x 4 premultiplied, mattes (engine.MatteInBox or None) and fills for peel()."""
+    """What the files hold: picture H x W x 4 premultiplied; of each layer its matte (None: all that is left), and its fill
+    (engine.Fill, Exemplar, or a painted H x W x 4)."""
 
     picture: np.ndarray
     has_alpha: bool
@@ -34,6 +38,7 @@ class Sources:
     def __init__(self, document: Document, cache: Cache):
         self.document, self.recipe = document, document.recipe
         self.digests = digests_of(document, cache.digest)
+        self.layer_keys = layer_keys(self.recipe, self.digests)
         self.key = stack_key(self.recipe, self.digests)
         self.size = self._size()
 
@@ -55,68 +60,54 @@ class Sources:
         yield Preparing(0, "reading the picture")
         picture, said = self._picture("picture", self.recipe.picture)
         images = Images(picture.image, picture.has_alpha, warnings=said)
-        problems, labels = [], {}
+        problems, reader = [], MatteReader(self.document, images.picture)
         for i, layer in enumerate(self.recipe.layers):
             yield Preparing(round(0.1 + 0.3 * i / len(self.recipe.layers), 3), f"reading {layer.name}")
             for read, kept in ((self._matte, images.mattes), (self._fill, images.fills)):
                 try:
-                    kept.append(read(i, layer, images, labels))
+                    kept.append(read(i, layer, images, reader))
                 except RecipeError as error:
                     problems += error.problems
         if problems:
             raise RecipeError(*problems)
         return images
 
-    def _path(self, name: str):
-        return self.document.locate(name)
+    def picture(self) -> np.ndarray:
+        """The picture alone, H x W x 4. Throws RecipeError."""
+        return self._picture("picture", self.recipe.picture)[0].image
 
-    def _matte(self, i, layer, images: Images, labels: dict):
-        place = f"layers[{i}].matte"
-        match layer.matte:
-            case FileMatte(file=name, channel=channel):
-                place += ".file"
-                matte = _read(place, engine.read_matte, str(self._path(name)), channel)
-            case LabelMatte(labels=name, value=value):
-                place += ".labels"
-                if name not in labels:
-                    labels[name] = _read(place, engine.read_labels, str(self._path(name)))
-                matte = (labels[name] == value).astype(np.float32)
-            case None:
-                return None
-        self._check_size(f"{place}: {layer.matte.file if isinstance(layer.matte, FileMatte) else layer.matte.labels}", matte, images)
-        x, y, width, height = box = _box(matte)
-        if not width:
+    @staticmethod
+    def _matte(i: int, layer: Layer, images: Images, reader: MatteReader) -> Given | ToSolve | None:
+        if layer.matte is None:
+            return None
+        matte = reader.read(f"layers[{i}].matte", layer.matte)
+        if not min(matte.bound.box[2:]):
             images.warnings.append(f"layers[{i}].matte: covers no pixel; the layer is not seen")
-        return engine.MatteInBox(matte[y : y + height, x : x + width].copy(), box)
+        return matte
 
-    def _fill(self, i, layer, images: Images, _labels):
+    def _fill(self, i: int, layer: Layer, images: Images, reader: MatteReader):
         if i + 1 == len(self.recipe.layers):
             return engine.Fill.none  # nothing lies behind the last layer
-        if isinstance(layer.fill, ExemplarFill):
-            return engine.Fill.push_pull
-        if not isinstance(layer.fill, FileFill):
-            return engine.Fill.none
-        place = f"layers[{i}].fill.file"
-        painted, said = self._picture(place, layer.fill.file)
-        images.warnings += said
-        self._check_size(f"{place}: {layer.fill.file}", painted.image, images)
-        return painted.image
+        match layer.fill:
+            case ExemplarFill():
+                return exemplar(f"layers[{i}].fill", layer.fill, reader)
+            case FileFill(file=name):
+                painted, said = self._picture(f"layers[{i}].fill.file", name)
+                images.warnings += said
+                reader.check_size(f"layers[{i}].fill.file: {name}", painted.image)
+                return painted.image
+        return engine.Fill.none
 
     def _picture(self, place: str, name: str):
         """A picture, and what is odd about it."""
         space = engine.colour_space_named(self.recipe.colour_space)
-        picture = _read(place, engine.read_picture, str(self._path(name)), space)
+        picture = _read(place, engine.read_picture, str(self.document.locate(name)), space)
         if not picture.bad_pixels:
             return picture, []
         many = "1 pixel is not a finite number and counts" if picture.bad_pixels == 1 else (
             f"{picture.bad_pixels} pixels are not finite numbers and count"
         )  # fmt: skip
         return picture, [f"{place}: {many} as 0"]
-
-    def _check_size(self, place: str, image: np.ndarray, images: Images) -> None:
-        (height, width), (full_height, full_width) = image.shape[:2], images.picture.shape[:2]
-        if (height, width) != (full_height, full_width):
-            raise RecipeError(f"{place}: {width} x {height} is not the size of the picture, {full_width} x {full_height}")
 
 
 def digests_of(document: Document, find: Callable) -> dict:
@@ -135,46 +126,6 @@ def digests_of(document: Document, find: Callable) -> dict:
     return digests
 
 
-def filled_otherwise(recipe: Recipe) -> Iterator[str]:
-    """A warning where the recipe asks for a filling that has no engine yet."""
-    places = [f"layers[{i}].fill" for i, layer in enumerate(recipe.layers[:-1]) if isinstance(layer.fill, ExemplarFill)]
-    if places:
-        yield f"{', '.join(places)}: exemplar filling has no engine yet; filled by a smooth push-pull"
-
-
-def cut(images: Images, recipe: Recipe, beat: Callable[[], None]) -> Generator[Preparing, None, Prepared]:
-    """The layers of a picture, front first (engine.peel), with whatever was said about the files.
-
-    `beat` is called again and again while it lasts.
-    """
-
-    def still_there(phase: str, share: float) -> bool:
-        beat()
-        return True
-
-    feathers = [layer.feather for layer in recipe.layers]
-    facts = {"warnings": images.warnings, "has_alpha": images.has_alpha}
-    stacks = {"colour": (images.picture, images.fills)}
-    if images.has_alpha:  # the picture's own alpha, cut like one more grey picture
-        fills = [_grey_alpha(fill) if isinstance(fill, np.ndarray) else fill for fill in images.fills]
-        stacks["alpha"] = (_grey_alpha(images.picture), fills)
-    arrays = {}
-    for part, (name, (picture, fills)) in enumerate(stacks.items()):
-        yield Preparing(0.4 + 0.4 * part / len(stacks), "cutting the layers")
-        layers = engine.peel(picture, mattes=images.mattes, fills=fills, feathers=feathers, progress=still_there)
-        facts[name] = [list(layer.box) for layer in layers]
-        arrays |= {f"{name}{i}": layer.pixels for i, layer in enumerate(layers) if min(layer.box[2:]) > 0}
-    return Prepared(arrays, facts)
-
-
-def layer_images(stack: Prepared, name: str) -> list:
-    """The layers of one part of a stack ("colour", "alpha") as the engine wants them."""
-    nothing = np.zeros((0, 0, 4), np.float32)
-    return [
-        engine.LayerImage(stack.arrays.get(f"{name}{i}", nothing), tuple(box)) for i, box in enumerate(stack.facts[name])
-    ]
-
-
 def check_view(recipe: Recipe, boxes: list) -> None:
     """Throws RecipeError for a water layer that lies wholly above the horizon. `boxes`: x, y, width, height a layer."""
     view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
@@ -190,34 +141,28 @@ def check_view(recipe: Recipe, boxes: list) -> None:
 
 
 def boxes_of(images: Images) -> list[tuple[int, int, int, int]]:
-    """Where each matte is above 0: x, y, width, height."""
+    """Where each matte may be above 0: x, y, width, height."""
     height, width = images.picture.shape[:2]
-    return [(0, 0, width, height) if matte is None else tuple(matte.box) for matte in images.mattes]
-
-
-def _box(matte: np.ndarray) -> tuple[int, int, int, int]:
-    rows, columns = np.flatnonzero(matte.any(axis=1)), np.flatnonzero(matte.any(axis=0))
-    if not rows.size:
-        return 0, 0, 0, 0
-    return int(columns[0]), int(rows[0]), int(columns[-1] - columns[0] + 1), int(rows[-1] - rows[0] + 1)
-
-
-def _grey_alpha(picture: np.ndarray) -> np.ndarray:
-    grey = np.repeat(picture[..., 3:], 4, axis=2)
-    grey[..., 3] = 1
-    return grey
+    return [(0, 0, width, height) if matte is None else tuple(matte.bound.box) for matte in images.mattes]
 
 
 def _files(recipe: Recipe) -> Iterator[tuple[str, str]]:
     """Every file that the recipe names, with its place."""
     yield "picture", recipe.picture
     for i, layer in enumerate(recipe.layers):
-        if isinstance(layer.matte, FileMatte):
-            yield f"layers[{i}].matte.file", layer.matte.file
-        if isinstance(layer.matte, LabelMatte):
-            yield f"layers[{i}].matte.labels", layer.matte.labels
-        if isinstance(layer.fill, FileFill) and i + 1 < len(recipe.layers):
+        yield from _matte_file(f"layers[{i}].matte", layer.matte)
+        if i + 1 == len(recipe.layers):
+            return
+        if isinstance(layer.fill, FileFill):
             yield f"layers[{i}].fill.file", layer.fill.file
+        if isinstance(layer.fill, ExemplarFill):
+            yield from _matte_file(f"layers[{i}].fill.source", layer.fill.source)
+
+
+def _matte_file(place: str, matte: Matte | None) -> Iterator[tuple[str, str]]:
+    for field in ("file", "labels", "trimap"):
+        if hasattr(matte, field):
+            yield f"{place}.{field}", getattr(matte, field)
 
 
 def _why(error: OSError) -> str:

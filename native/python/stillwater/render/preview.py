@@ -16,11 +16,12 @@ from ..recipe.stochastic import Bob, Drift, Sway
 from .cache import Cache, Prepared
 from .endless import Canvas, make_endless, parts_of, ways_of
 from .errors import Failed
-from .events import Event, Preparing, Ready, Warn
+from .events import Event, Preparing, Ready
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
-from .prepare import Sources, cut, digests_of, filled_otherwise, layer_images
+from .prepare import Sources, digests_of
 from .resolve import Timeline
+from .stack import forget_stack, layer_images, layers_of
 
 
 def key_of(document: Document, cache: Cache, longest: int) -> str | None:
@@ -40,7 +41,6 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
     """
     sources = Sources(document, cache)
     key = _key(sources.key, longest)
-    yield from map(Warn, filled_otherwise(document.recipe))
     if cache.find(key) is None:
         with cache.lock(key, beat) as lock:
 
@@ -49,7 +49,7 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
                 lock.beat()
 
             if cache.find(key) is None:
-                stack = yield from _stack(document, cache, sources, still_there)
+                stack = yield from layers_of(sources, cache, still_there)
                 yield Preparing(0.9, "making the layers small")
                 small = _reduced(stack, sources.size, longest, still_there)
                 cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
@@ -66,7 +66,7 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
 
 def forget(document: Document, cache: Cache) -> None:
     """Removes the layers of a recipe as it is now, at every size. Throws RecipeError, OSError."""
-    cache.forget(Sources(document, cache).key)
+    forget_stack(Sources(document, cache), cache)
 
 
 def _key(stack: str, longest: int) -> str:
@@ -80,21 +80,6 @@ def _located(document: Document, sources: Sources):
 def _file(path: Path, digest: str) -> list:
     state = path.stat()
     return [state.st_size, state.st_mtime_ns, digest]
-
-
-def _stack(document: Document, cache: Cache, sources: Sources, beat: Callable) -> Generator[Event, None, Prepared]:
-    """The layers as they were cut; a bake has the same."""
-    stack = cache.find(sources.key)
-    if stack is not None:
-        return stack
-    with cache.lock(sources.key, beat):
-        stack = cache.find(sources.key)
-        if stack is None:
-            images = yield from sources.read()
-            yield from map(Warn, images.warnings)
-            stack = yield from cut(images, document.recipe, beat)
-            stack = cache.store(sources.key, stack)
-    return stack
 
 
 def _reduced(stack: Prepared, size: tuple[int, int], longest: int, beat: Callable) -> Prepared:
