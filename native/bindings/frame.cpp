@@ -1,3 +1,4 @@
+#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <array>
@@ -108,15 +109,16 @@ void bind_frame(py::module_& module) {
              py::arg("drifting"), py::arg("endless") = Endlesses());
   module.def(
       "make_endless",
-      [](const LayerImage& layer, Size size, double scale, Axes along) {
+      [](const LayerImage& layer, Size size, double scale, Axes along, const Progress::Listener& progress) {
         EndlessPixels made;
         {
           const py::gil_scoped_release release;
-          made = make_endless(layer, {size.first, size.second}, scale, {along.first, along.second});
+          made = make_endless(layer, {size.first, size.second}, scale, {along.first, along.second}, Progress(progress));
         }
         return std::pair(as_array(made.pixels), as_array(made.mean));
       },
-      py::arg("layer"), py::arg("size"), py::arg("scale"), py::arg("along"));
+      py::arg("layer"), py::arg("size"), py::arg("scale"), py::arg("along"),
+      py::arg("progress") = Progress::Listener());
   py::class_<LayerSetup>(module, "Layer")
       .def(py::init(&layer_setup), py::arg("image"), py::arg("motion") = MotionNumbers(), py::arg("water") = -1,
            py::arg("follows") = -1, py::arg("mirror") = false, py::arg("visible") = true,

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "layers/cyclic.h"
+#include "layers/cyclic_by_exemplars.h"
 
 namespace stillwater {
 namespace {
@@ -90,9 +92,11 @@ LayerImage scaled_layer(const LayerImage& layer, cv::Size picture, double output
 namespace {
 
 // Of a layer at the scale of its plates.
-EndlessPixels endless_pixels(const LayerImage& scaled, cv::Size picture, double output_scale, Endless along) {
+EndlessPixels endless_pixels(const LayerImage& scaled, cv::Size picture, double output_scale, Endless along,
+                             Progress progress = {}) {
   const Rgba wide = on_canvas(scaled, canvas_size(picture, output_scale), along).pixels;
-  const Rgba pixels = along.x || along.y ? make_cyclic(wide, along.x, along.y) : wide;
+  const CyclicParameters how{.along_x = along.x, .along_y = along.y, .known = {}};
+  const Rgba pixels = along.x || along.y ? make_cyclic_by_exemplars(wide, how, std::move(progress)) : wide;
   const double sigma = CrossFade::mean_sigma_of(picture.width, std::min(1.0, output_scale));
   return {pixels, CrossFade::mean_of(pixels, sigma, along.x, along.y)};
 }
@@ -106,10 +110,11 @@ void check_made_before(const EndlessPixels& before, const cv::Rect& canvas, Endl
 
 }  // namespace
 
-EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along) {
+EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along,
+                           Progress progress) {
   check("layer", layer, picture);
   if (layer.box.empty()) return {};
-  return endless_pixels(scaled_layer(layer, picture, output_scale), picture, output_scale, along);
+  return endless_pixels(scaled_layer(layer, picture, output_scale), picture, output_scale, along, std::move(progress));
 }
 
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/progress.h"
 #include "frame/cross_fade.h"
 #include "frame/displaced_layer.h"
 #include "layers/layer_image.h"
@@ -20,12 +21,14 @@ struct Endless {
 /// `picture` is the whole picture's size; the box comes back in pixels of that scale.
 LayerImage scaled_layer(const LayerImage& layer, cv::Size picture, double output_scale);
 
-/// What of a layer that drifts takes long to make: its pixels without an end (make_cyclic()), and CrossFade's mean.
+/// What of a layer that drifts takes long to make: its pixels without an end
+/// (make_cyclic_by_exemplars()), and CrossFade's mean.
 struct EndlessPixels {
   Rgba pixels, mean;
 };
 
-EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along);
+EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along,
+                           Progress progress = {});
 
 /// A layer as frames read it: ready for any moment, whatever the numbers of its motion are.
 struct LayerPlates {

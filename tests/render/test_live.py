@@ -1,5 +1,7 @@
 """Live frames: those of the render, at the size of a screen, from what is prepared already."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from stillwater import Live, RecipeError, load
@@ -8,8 +10,6 @@ from stillwater.render.cache import FOLDER, Cache
 from stillwater.render.events import Preparing, Ready
 from stillwater.render.loop import Job, Order, render
 from stillwater.render.preview import forget, prepare, reduced
-from stillwater.render.renderer import Renderer
-from stillwater.render.stack import find_stack
 
 
 def prepared(path, longest=960):
@@ -34,9 +34,19 @@ def assert_shows(pixels, combined):
     np.testing.assert_array_equal(pixels[::-1, :, 3], combined[..., 3])
 
 
+def rendering(job):
+    """The renderer of a bake, which finds the layers in the cache."""
+    steps = job.ready(SimpleNamespace(beat=lambda: None))
+    while True:
+        try:
+            next(steps)
+        except StopIteration as done:
+            return done.value
+
+
 def test_frames_are_the_render_s(live, scene, tmp_path):
     job = Job(load(scene()), Order())
-    renderer = Renderer(job.timeline, find_stack(job.cache, job.sources.key), job.sources.size, 1.0)
+    renderer = rendering(job)
     for frame in (5, -3, 400, 1):
         assert_shows(live.frame(frame), renderer.frame(frame).combined)
 
@@ -50,7 +60,7 @@ def test_a_picture_with_alpha_keeps_it(scene, recipe, tmp_path):
     live.learn(prepared(path).files)
     assert live.take(recipe, tmp_path)
     job = Job(load(path), Order())
-    wanted = Renderer(job.timeline, find_stack(job.cache, job.sources.key), job.sources.size, 1.0).frame(4).combined
+    wanted = rendering(job).frame(4).combined
     assert_shows(live.frame(4), wanted)
     assert live.frame(4)[..., 3].min() < 0.5
 
@@ -204,7 +214,7 @@ def test_what_a_render_cut_is_not_cut_again(scene):
 
 
 def test_a_layer_that_begins_to_drift_is_made_endless_elsewhere(live, recipe, scene, tmp_path, monkeypatch):
-    """make_cyclic takes long: not where frames are shown. Which way it drifts counts, how fast does not."""
+    """That takes long: not where frames are shown. Which way it drifts counts, how fast does not."""
 
     def drift(x, y):
         return lambda r: r["layers"][2].update(motion={"type": "drift", "velocity": [x, y]})

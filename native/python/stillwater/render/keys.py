@@ -24,7 +24,7 @@ ENGINES = {
     "sway": 2,
     "ripple": 3,
     "bob": 1,
-    "drift": 2,
+    "drift": 3,
 }
 
 

@@ -14,6 +14,7 @@ from .. import _stillwater as engine
 from ..recipe import parse
 from . import preview
 from .cache import FOLDER, Cache, Prepared
+from .endless import Canvas, endless_key, ways_of
 from .prepare import check_view
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
@@ -83,7 +84,7 @@ class Live:
         small = preview.reduced(document.recipe, layers.facts["scale"])
         check_view(small, layers.facts["colour"])
         timeline = Timeline(small)
-        plates = self._plates_for(key, layers, preview.ways_of(small, timeline.endless), self._plates if same else {})
+        plates = self._plates_for(key, layers, ways_of(small, timeline.endless), self._plates if same else {})
         if plates is None:
             return False
         size, has_alpha = tuple(layers.facts["size"]), layers.facts["has_alpha"]
@@ -191,16 +192,10 @@ class Live:
 
     def _plates_for(self, key: str, layers: Prepared, ways: list, made: dict) -> dict | None:
         """Plates for each way, those that are there already taken over; None where a part is not prepared."""
-        parts = preview.PARTS if layers.facts["has_alpha"] else preview.PARTS[:1]
         missing = [way for way in ways if way not in made]
-        endless = {way: self._cache.find(preview.endless_key(key, way)) for way in missing if way[1] is not None}
+        endless = {way: self._cache.find(endless_key(key, way)) for way in missing if way[1] is not None}
         if None in endless.values():
             return None
-        images = [layer_images(layers, part) for part in parts]
-        new = {}
-        for i, axes in missing:
-            colour, alpha = images[0][i], images[1][i] if len(images) > 1 else None
-            arrays = endless[i, axes].arrays if axes is not None else {}
-            before = [(arrays[f"{part}_pixels"], arrays[f"{part}_mean"]) for part in parts if f"{part}_mean" in arrays]
-            new[i, axes] = engine.make_plates(colour, alpha, tuple(layers.facts["size"]), 1.0, axes, before)
+        canvas = Canvas(key, layers, tuple(layers.facts["size"]))
+        new = {way: canvas.plates(way, endless.get(way)) for way in missing}
         return {way: made.get(way) or new[way] for way in ways}

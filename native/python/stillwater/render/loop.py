@@ -15,6 +15,7 @@ from .. import _stillwater as engine
 from ..recipe import Document, Recipe
 from .cache import FOLDER, LIMIT, Cache, Prepared
 from .claim import claim_frames
+from .endless import Canvas, make_endless, ways_of
 from .errors import Failed, Refused
 from .events import Done, Event, Frame, Preparing, Started, Warn
 from .keys import FrameKeys
@@ -88,7 +89,18 @@ class Job:
             if self.stack is None:
                 self.stack = yield from cut(self.sources, self.images, self.cache, beat, self.order.fresh)
         self.images = None
-        yield Preparing(1, "done")
+
+    def ready(self, claim) -> Generator[Event, None, Renderer]:
+        """The renderer, when the layers are there and those that drift endless."""
+        fresh = self.stack is None
+        yield from self.prepare(claim)
+        canvas = Canvas(self.sources.key, self.stack, self.sources.size, self.scale)
+        ways = ways_of(self.recipe, self.timeline.endless)
+        endless = yield from make_endless(canvas, self.recipe, ways, self.cache, canvas.key, claim.beat)
+        if fresh:
+            yield Preparing(1, "done")
+        self.stack = None  # the renderer has a copy
+        return Renderer(self.timeline, canvas, endless)
 
     def path(self, frame: int) -> Path:
         return self.folder / f"{self.recipe.output.name}_{frame:04d}.exr"
@@ -157,9 +169,7 @@ def _frames(job: Job, movie: Movie | None, claim: Lock) -> Generator[Event, None
         kept = not job.order.fresh and job.stands(frame, key)
         if not kept:
             if renderer is None:
-                yield from job.prepare(claim)
-                renderer = Renderer(job.timeline, job.stack, job.sources.size, job.scale)
-                job.stack = None  # the renderer has a copy
+                renderer = yield from job.ready(claim)
                 start = time.perf_counter()
             made = renderer.frame(frame)
             job.write(frame, made, key)

@@ -1,6 +1,6 @@
 """The layers of a recipe at the size of a screen: a preparation, so that whoever shows frames makes none.
 
-`prepare` makes it, as slowly as it must; whoever knows `key_of` and `endless_key` finds it, and reads no file but the
+`prepare` makes it, as slowly as it must; whoever knows `key_of` (and endless.py's `endless_key`) finds it, and reads no file but the
 cache's.
 """
 
@@ -14,6 +14,7 @@ from ..recipe import Document, Recipe
 from ..recipe.parts import Keys
 from ..recipe.stochastic import Bob, Drift, Sway
 from .cache import Cache, Prepared
+from .endless import Canvas, make_endless, parts_of, ways_of
 from .errors import Failed
 from .events import Event, Preparing, Ready
 from .keys import ENGINES, hashed, stack_key
@@ -21,11 +22,6 @@ from .loop import frame_size
 from .prepare import Sources, digests_of
 from .resolve import Timeline
 from .stack import forget_stack, layer_images, layers_of
-
-PARTS = ("colour", "alpha")
-
-
-Way = tuple[int, tuple[bool, bool] | None]  # a layer, and of one that drifts the axes along which it goes on for ever
 
 
 def key_of(document: Document, cache: Cache, longest: int) -> str | None:
@@ -35,24 +31,6 @@ def key_of(document: Document, cache: Cache, longest: int) -> str | None:
     """
     digests = digests_of(document, cache.known)
     return _key(stack_key(document.recipe, digests), longest) if all(digests.values()) else None
-
-
-def endless_key(key: str, way: Way) -> str:
-    """The key of what a drifting layer of the preview with this key goes on with."""
-    return hashed({"endless": key, "way": way, "drift": ENGINES["drift"]})
-
-
-def ways_of(recipe: Recipe, endless: list[tuple[bool, bool]]) -> list[Way]:
-    """How each layer must be ready. `endless`: Timeline.endless."""
-    return [(i, axes if drifts(recipe, i) else None) for i, axes in enumerate(endless)]
-
-
-def drifts(recipe: Recipe, index: int) -> bool:
-    """Whether a layer drifts, or follows one that does."""
-    layer = recipe.layers[index]
-    if isinstance(layer.motion, Drift):
-        return True
-    return layer.follows is not None and drifts(recipe, [each.name for each in recipe.layers].index(layer.follows.layer))
 
 
 def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lambda: None) -> Iterator[Event]:
@@ -75,7 +53,10 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
                 yield Preparing(0.9, "making the layers small")
                 small = _reduced(stack, sources.size, longest, still_there)
                 cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
-    yield from _make_endless(document, cache, key, sources.key, beat)
+    if (small := cache.find(key)) is not None:
+        ways = ways_of(document.recipe, Timeline(document.recipe).endless)
+        canvas = Canvas(key, small, tuple(small.facts["size"]))
+        yield from make_endless(canvas, document.recipe, ways, cache, sources.key, beat)
     cache.keep_digests()
     if cache.trouble:
         raise Failed(cache.trouble)
@@ -101,27 +82,10 @@ def _file(path: Path, digest: str) -> list:
     return [state.st_size, state.st_mtime_ns, digest]
 
 
-def _make_endless(document: Document, cache: Cache, key: str, stack: str, beat: Callable) -> Iterator[Event]:
-    """What the layers that drift go on with."""
-    for way in ways_of(document.recipe, Timeline(document.recipe).endless):
-        place = endless_key(key, way)
-        if way[1] is None or cache.find(place) is not None or (small := cache.find(key)) is None:
-            continue
-        yield Preparing(0.95, f"making {document.recipe.layers[way[0]].name} endless")
-        beat()
-        arrays = {}
-        for part in PARTS if small.facts["has_alpha"] else PARTS[:1]:
-            image = layer_images(small, part)[way[0]]
-            if min(image.box[2:]) > 0:
-                made = engine.make_endless(image, tuple(small.facts["size"]), 1.0, way[1])
-                arrays |= {f"{part}_pixels": made[0], f"{part}_mean": made[1]}
-        cache.store(place, Prepared(arrays, {"of": stack}))
-
-
 def _reduced(stack: Prepared, size: tuple[int, int], longest: int, beat: Callable) -> Prepared:
     """`scale`: small pixels for a picture's; `size` of the small picture; `boxes`: of its layers."""
     scale = min(1.0, longest / max(size))
-    parts = PARTS if stack.facts["has_alpha"] else PARTS[:1]
+    parts = parts_of(stack)
     arrays, boxes = {}, {part: [] for part in parts}
     for part in parts:
         for i, image in enumerate(layer_images(stack, part)):

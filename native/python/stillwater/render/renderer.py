@@ -5,8 +5,8 @@ import numpy as np
 from .. import _stillwater as engine
 from ..recipe.stochastic import Bob, Ripple, Still, Sway
 from .cache import Prepared
+from .endless import Canvas, Way, ways_of
 from .resolve import DriftNow, MomentNow, Timeline
-from .stack import layer_images
 
 _KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: engine.Drift}
 
@@ -14,10 +14,12 @@ _KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: e
 class Renderer:
     """Frames of one recipe at one scale, in any order."""
 
-    def __init__(self, timeline: Timeline, stack: Prepared, size: tuple[int, int], scale: float):
+    def __init__(self, timeline: Timeline, canvas: Canvas, endless: dict[Way, Prepared]):
+        """`endless`: what Canvas.make() gave, for each way of a layer that drifts."""
         self._timeline, self._layers_too = timeline, timeline.recipe.output.layers
-        alpha = layer_images(stack, "alpha") if stack.facts["has_alpha"] else None
-        self._renderer = frame_renderer(timeline, layer_images(stack, "colour"), size, scale, alpha=alpha)
+        plates = [canvas.plates(way, endless.get(way)) for way in ways_of(timeline.recipe, timeline.endless)]
+        has_alpha = canvas.layers.facts["has_alpha"]
+        self._renderer = frame_renderer(timeline, plates, canvas.size, canvas.scale, has_alpha=has_alpha)
 
     def frame(self, frame: int):
         """One frame: .combined H x W x 4 premultiplied display-referred, .flow H x W x 2, .matte H x W, .layers."""
