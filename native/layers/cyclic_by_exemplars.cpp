@@ -13,7 +13,7 @@ namespace stillwater {
 namespace {
 
 // Tone may lead a long way from the end to the beginning, and no edge stays at either.
-constexpr BlendParameters along_the_strip{.screen = 0.001f, .step_of_tone = 10.0f, .border = 16.0f};
+constexpr BlendParameters along_the_strip{.screen = 0.02f, .step_of_tone = 10.0f, .border = 16.0f};
 // Share of the image's steps, from one column to the next, that those into the strip must not be above; a little less,
 // for what they are asked to be they are nearly.
 constexpr double usual_share = 0.999, nearly = 0.75;

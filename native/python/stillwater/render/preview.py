@@ -1,7 +1,7 @@
 """The layers of a recipe at the size of a screen: a preparation, so that whoever shows frames makes none.
 
-`prepare` makes it, as slowly as it must; whoever knows `key_of` (and endless.py's `endless_key`) finds it, and reads no file but the
-cache's.
+`prepare` makes it, as slowly as it must; whoever knows `key_of`, and endless.py's `endless_key`, finds it, and reads no
+file but the cache's.
 """
 
 from collections.abc import Callable, Generator, Iterator
