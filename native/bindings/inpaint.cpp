@@ -1,11 +1,11 @@
-#include "layers/inpaint.h"
+#include "layers/inpainting/inpaint.h"
 
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
-#include "layers/cyclic_by_exemplars.h"
+#include "layers/inpainting/cyclic_by_exemplars.h"
 
 namespace stillwater {
 namespace {

@@ -6,14 +6,14 @@
 
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
-#include "layers/closed_form.h"
-#include "layers/coarse_to_fine.h"
-#include "layers/colour_clusters.h"
-#include "layers/colour_prior.h"
-#include "layers/colour_samples.h"
-#include "layers/drawn_trimap.h"
-#include "layers/foreground.h"
-#include "layers/matte.h"
+#include "layers/matting/closed_form.h"
+#include "layers/matting/coarse_to_fine.h"
+#include "layers/matting/colour_clusters.h"
+#include "layers/matting/colour_prior.h"
+#include "layers/matting/colour_samples.h"
+#include "layers/matting/drawn_trimap.h"
+#include "layers/matting/foreground.h"
+#include "layers/matting/matte.h"
 
 namespace stillwater {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "layers/cyclic.h"
-#include "layers/cyclic_by_exemplars.h"
+#include "layers/inpainting/cyclic_by_exemplars.h"
 
 namespace stillwater {
 namespace {

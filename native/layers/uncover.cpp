@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
-#include "layers/foreground.h"
+#include "layers/matting/foreground.h"
 #include "layers/push_pull.h"
 
 namespace stillwater {

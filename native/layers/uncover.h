@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "layers/inpaint.h"
+#include "layers/inpainting/inpaint.h"
 
 /// What lies behind a layer that is taken off a picture.
 namespace stillwater {

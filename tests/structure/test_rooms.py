@@ -12,7 +12,7 @@ ROOMS += ["frame", "bindings"]
 LONGEST = {".h": 500, ".cpp": 500, ".py": 500, ".sh": 500}
 C_HEADERS = {"math.h", "stdint.h", "stddef.h", "string.h", "immintrin.h", "emmintrin.h", "smmintrin.h"}
 
-SOURCES = sorted(path for room in ROOMS for path in (NATIVE / room).glob("*") if path.suffix in (".h", ".cpp"))
+SOURCES = sorted(path for room in ROOMS for path in (NATIVE / room).rglob("*") if path.suffix in (".h", ".cpp"))
 
 
 def includes(path: Path) -> list[str]:
@@ -25,7 +25,7 @@ def named(path: Path) -> str:
 
 @pytest.mark.parametrize("source", SOURCES, ids=named)
 def test_a_room_includes_only_itself_and_rooms_above(source):
-    allowed = ROOMS[: ROOMS.index(source.parent.name) + 1]
+    allowed = ROOMS[: ROOMS.index(source.relative_to(NATIVE).parts[0]) + 1]
     below = [name for name in includes(source) if (room := name.split("/")[0]) in ROOMS and room not in allowed]
     assert not below
 
