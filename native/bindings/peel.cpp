@@ -38,7 +38,8 @@ Box box_of(const Part& part) {
 }
 
 PeelLayer layer_of(const std::optional<MatteGiven>& matte, const FillGiven& fill, double feather, const std::string& place) {
-  PeelLayer layer{.feather = feather};
+  PeelLayer layer;
+  layer.feather = feather;
   if (matte) {
     if (const auto* whole = std::get_if<FloatArray>(&*matte)) layer.matte = as_image<float>(*whole, place + ".matte");
     else layer.matte = std::get<MatteInBox>(*matte);

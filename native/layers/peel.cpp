@@ -18,15 +18,6 @@ float without_tail(float likely) {
   return likely < 2 * unlikely ? std::max(0.0f, 2 * (likely - unlikely)) : likely;
 }
 
-// The box of what is above 0, grown so that a filling finds its surroundings.
-cv::Rect surroundings(const Plane& region) {
-  const cv::Rect box = cv::boundingRect(region > 0);
-  if (box.empty()) return box;
-  const int margin = std::max(32, std::max(box.width, box.height) / 4);
-  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-         cv::Rect(0, 0, region.cols, region.rows);
-}
-
 // A copy, of the picture's size.
 Plane whole_matte(const std::variant<Plane, MatteInBox>& matte, const cv::Size& picture) {
   if (const Plane* whole = std::get_if<Plane>(&matte)) return whole->clone();

@@ -63,4 +63,12 @@ Rgba push_pull(const Rgba& known) {
   return filled;
 }
 
+cv::Rect surroundings(const Plane& region) {
+  const cv::Rect box = cv::boundingRect(region > 0);
+  if (box.empty()) return box;
+  const int margin = std::max(32, std::max(box.width, box.height) / 4);
+  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+         cv::Rect(0, 0, region.cols, region.rows);
+}
+
 }  // namespace stillwater

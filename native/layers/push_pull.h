@@ -16,6 +16,9 @@ Rgba push_pull(const Rgba& known);
 void fill_by_push_pull(Rgba& known);
 void fill_by_push_pull(cv::Mat_<cv::Vec2f>& known);
 
+/// The box of what is above 0, grown so that a filling finds what surrounds it; empty where nothing is.
+cv::Rect surroundings(const Plane& region);
+
 /// How far to trust a pixel of which the share `other` belongs to something else: falls off quickly.
 inline float purity(float other) {
   const float pure = 1 - other, square = pure * pure, fourth = square * square;

@@ -28,14 +28,6 @@ Plane grown(const cv::Mat& mask, double pixels) {
   return near;
 }
 
-// The box of what is above 0, grown so that a filling finds its surroundings.
-cv::Rect surroundings(const Plane& region) {
-  const cv::Rect box = cv::boundingRect(region > 0);
-  const int margin = std::max(32, std::max(box.width, box.height) / 4);
-  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-         cv::Rect(0, 0, region.cols, region.rows);
-}
-
 bool any(const cv::Mat& region) { return cv::countNonZero(region) > 0; }
 
 void split_remainder(const Rgba& picture, const Plane& matte, Uncovered& colours) {
