@@ -1,41 +1,25 @@
 """From a line drawn around something to a layer that moves: its name and motion first, then one stroke."""
 
 import bpy
-from bpy.app.translations import pgettext_tip as tip_
-from bpy.props import EnumProperty, StringProperty
 
 from .. import strokes
 from ..properties import arrange, motions
 from ..strokes import draw_mode, roles
+from ..ui import polls
 from . import order, placing, preset_files
-from .selection import MOTIONS, OfPicture
 
 OUTLINE = "outline"
 
 
-class STILLWATER_OT_layer_from_outline(OfPicture, bpy.types.Operator):
+class STILLWATER_OT_layer_from_outline(order.OfMotion, bpy.types.Operator):
     """Add a layer with this motion, and draw its outline on the picture: one line around it, and it moves"""
 
     bl_idname = "stillwater.layer_from_outline"
     bl_label = "New Layer from Outline"
 
-    motion: EnumProperty(name="Motion", description="What it does", items=MOTIONS)
-    preset: StringProperty(
-        name="Preset", description="File of a preset of this motion; empty: the motion as it is", options={"SKIP_SAVE"}
-    )
-
-    @classmethod
-    def description(cls, context, properties):
-        return preset_files.description_of(properties.preset) or tip_(cls.__doc__)
-
     @classmethod
     def poll(cls, context):
-        if not super().poll(context):
-            return False
-        if context.scene.stillwater.active().plane is None:
-            cls.poll_message_set(tip_("The picture has no plane in the scene; make it anew with Set Up in Scene"))
-            return False
-        return True
+        return super().poll(context) and polls.on_a_plane(cls, context)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()

@@ -10,11 +10,8 @@ from . import preset_files
 from .selection import MOTIONS, OfLayers, OfPicture, chosen
 
 
-class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
-    """Add a layer in front of the active one"""
-
-    bl_idname = "stillwater.add_layer"
-    bl_label = "Add Layer"
+class OfMotion(OfPicture):
+    """An operator that adds a layer with a motion."""
 
     motion: EnumProperty(name="Motion", description="What it does", items=MOTIONS)
     preset: StringProperty(
@@ -24,6 +21,13 @@ class STILLWATER_OT_add_layer(OfPicture, bpy.types.Operator):
     @classmethod
     def description(cls, context, properties):
         return preset_files.description_of(properties.preset) or tip_(cls.__doc__)
+
+
+class STILLWATER_OT_add_layer(OfMotion, bpy.types.Operator):
+    """Add a layer in front of the active one"""
+
+    bl_idname = "stillwater.add_layer"
+    bl_label = "Add Layer"
 
     def execute(self, context):
         try:

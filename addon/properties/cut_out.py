@@ -11,6 +11,12 @@ METHODS = [
 ]
 
 
+def _make_odd(fill, context) -> None:
+    """A patch has a pixel in its middle."""
+    if fill.patch % 2 == 0:
+        fill.patch += 1
+
+
 class STILLWATER_PG_matte(bpy.types.PropertyGroup):
     """A part of the picture: how much of each pixel belongs to it. What is drawn of it are strokes (strokes/roles.py)."""
 
@@ -62,7 +68,7 @@ class STILLWATER_PG_fill(bpy.types.PropertyGroup):
     file: StringProperty(name="File", description="Painted background", subtype="FILE_PATH", options=names.PATH)
     patch: IntProperty(
         name="Patch", description="Side of the pieces that are taken: larger ones keep larger patterns whole [px]",
-        subtype="PIXEL", default=9, min=3, soft_min=5, max=63, soft_max=31, options=set(),
+        subtype="PIXEL", default=9, min=3, soft_min=5, max=63, soft_max=31, options=set(), update=_make_odd,
     )
     radius: FloatProperty(
         name="Radius", description="How far away pieces may come from; 0 = anywhere [px]", subtype="PIXEL",

@@ -21,12 +21,7 @@ class OfRole:
 
     @classmethod
     def poll(cls, context):
-        if not polls.own_picture(cls, context):
-            return False
-        if context.scene.stillwater.active().plane is None:
-            cls.poll_message_set(tip_("The picture has no plane in the scene; make it anew with Set Up in Scene"))
-            return False
-        return True
+        return polls.own_picture(cls, context) and polls.on_a_plane(cls, context)
 
     def execute(self, context):
         picture, role = context.scene.stillwater.active(), roles.by_key(self.role)

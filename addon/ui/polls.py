@@ -20,3 +20,11 @@ def own_picture(cls, context) -> bool:
         cls.poll_message_set(tip_("The scene has no Stillwater picture yet: open one first"))
         return False
     return True
+
+
+def on_a_plane(cls, context) -> bool:
+    """Whether the active picture has a plane to draw on, where there is one."""
+    if context.scene.stillwater.active().plane is None:
+        cls.poll_message_set(tip_("The picture has no plane in the scene; make it anew with Set Up in Scene"))
+        return False
+    return True

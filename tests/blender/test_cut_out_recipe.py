@@ -153,3 +153,10 @@ def test_a_value_that_blender_can_t_hold_is_refused(extension, scene, tmp_path):
     with pytest.raises(RuntimeError, match="layers.0..fill.touch_up.0..seed: 2147483648 is above"):
         bpy.ops.stillwater.load_recipe(filepath=str(recipes.write(tmp_path, recipe)))
     assert len(bpy.context.scene.stillwater.pictures) == 0
+
+
+def test_a_patch_is_odd(picture):
+    fill = picture.layers[0].fill
+    for given, kept in ((12, 13), (13, 13), (62, 63), (3, 3)):
+        fill.patch = given
+        assert fill.patch == kept
