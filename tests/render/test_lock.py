@@ -100,3 +100,17 @@ def test_of_many_workers_one_takes_over(path):
     for worker in workers:
         worker.communicate(timeout=20)
     assert taken.count("True\n") == 1, taken
+
+
+def test_one_worker_at_a_time_clears_away(path):
+    """What another one takes meanwhile stays; a guard whose worker is gone is no obstacle for ever."""
+    leave(path, HERE, dead_process())
+    guard = path.with_name(f"{path.name}.clearing")
+    guard.touch()
+    assert not Lock(path).take() and path.exists() and guard.exists()
+    os.utime(guard, (1, 1))
+    assert not Lock(path).take() and not guard.exists()
+    lock = Lock(path)
+    assert lock.take() and not guard.exists()
+    lock.release()
+    assert not path.exists()

@@ -5,6 +5,7 @@ and is touched while the work goes on, its heartbeat; a lock whose worker is gon
 The signal handler removes it when the worker is interrupted.
 """
 
+import contextlib
 import os
 import secrets
 import socket
@@ -79,16 +80,20 @@ class Lock:
         return True
 
     def _clear_away(self) -> None:
-        """Removes a lock that nobody holds: by renaming it first, which only one of several workers can do."""
-        aside = self.path.with_name(f"{self.path.name}.{secrets.token_hex(4)}.gone")
+        """Removes a lock that nobody holds. One worker at a time looks and removes: what another one takes meanwhile stays."""
+        guard = self.path.with_name(f"{self.path.name}.clearing")
         try:
-            os.rename(self.path, aside)
-        except FileNotFoundError:
+            os.close(os.open(guard, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        except FileExistsError:
+            with contextlib.suppress(FileNotFoundError):
+                if time.time() - guard.stat().st_mtime > UNSIGNED:  # who made it is gone
+                    guard.unlink()
             return
-        if holder(aside) is not None and not self.path.exists():  # another worker took it over meanwhile
-            os.rename(aside, self.path)
-        else:
-            aside.unlink()
+        try:
+            if holder(self.path) is None:
+                self.path.unlink(missing_ok=True)
+        finally:
+            guard.unlink(missing_ok=True)
 
 
 def holder(path: Path) -> str | None:
