@@ -55,6 +55,7 @@ def test_a_tree_is_added_from_the_presets(window):
 
 def test_its_matte_is_typed(window):
     sidebar = window.box("VIEW_3D", "UI")
+    yield from window.scroll_to("Behind", sidebar)  # what comes after all of the matte
     yield from window.choose("Matte", "File", sidebar, beside=FIELD)
     yield from window.fill("File", str(SAMPLE / "mattes" / "tree.png"), sidebar, beside=FIELD, lowest=True)
     assert picture().layers[0].matte.file.endswith("tree.png")
