@@ -12,6 +12,9 @@ from pathlib import Path
 from bench import Row, medians
 from scenes import LARGE, Bed, write_recipe
 from stillwater import _stillwater as engine
+from stillwater import load
+from stillwater.render.cache import FOLDER, Cache
+from stillwater.render.prepare import Sources
 
 
 def rows():
@@ -41,8 +44,9 @@ def _memory():
         recipe = write_recipe(LARGE, Path(folder))
         preparing = _peak("render", recipe, "--frames", "1-1")
         baking = _peak("render", recipe, "--frames", "2-9")
-        (facts,) = (json.loads(meta.read_text()) for meta in Path(folder).glob(".stillwater-cache/*/meta.json"))
-    boxes = sum(width * height for _, _, width, height in facts["colour"])
+        layers = Sources(load(recipe), Cache(Path(folder) / FOLDER)).layer_keys
+        facts = Cache(Path(folder) / FOLDER).facts()
+    boxes = sum(width * height for _, _, width, height in (facts[key]["colour"] for key in layers))
     reference = (2 * boxes + 6 * LARGE.width * LARGE.height) * 4 * 4
     yield Row("memory of that, above the process after import", baking / 1e6, reference / 1e6, 1.0, "MB")
     yield Row("memory of cutting its layers and a first frame", preparing / 1e6, reference / 1e6, 1.0, "MB")

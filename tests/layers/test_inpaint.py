@@ -289,3 +289,16 @@ def test_it_is_asked_again_and_again_whether_to_go_on():
 
     stillwater.inpaint(picture, disc((300, 400), 150, 200, 70), progress=listener)
     assert np.percentile(waits, 90) < 0.3 and len(waits) > 5
+
+
+def test_noise_is_filled_with_numbers():
+    """Nothing fits anywhere: still each pixel is a copy of one of the source."""
+    rng = np.random.default_rng(5)
+    picture = np.ones((260, 320, 4), np.float32)
+    picture[..., :3] = rng.random((260, 320, 3), np.float32)
+    y, x = np.mgrid[:260, :320]
+    hole = (np.hypot(x - 150, y - 120) < 90).astype(np.float32)
+    copies = engine.inpaint(picture, hole, blend=False)
+    known = {pixel.tobytes() for pixel in picture[hole == 0]}
+    assert all(pixel.tobytes() in known for pixel in copies[hole == 1])
+    assert np.isfinite(engine.inpaint(picture, hole)).all()

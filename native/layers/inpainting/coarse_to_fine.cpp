@@ -25,6 +25,8 @@ constexpr int settling_rounds = 30;
 // How much less a patch counts for each pixel that it lies deeper in the hole (Wexler et al., 3.1).
 constexpr double deeper = 1.3;
 constexpr float deepest = 60;
+// A patch counts at least exp(-this): a pixel that only misfits cover still gets what they say.
+constexpr double least_likely = 20;
 
 using At = std::function<void(double)>;
 
@@ -70,7 +72,8 @@ Plane weights_of(const MatchField& field, const Mask& hole) {
       for (int x = 0; x < field.area.width; ++x) {
         if (!field.wanted(y, x) || field.distance(y, x) == MatchField::unmatched) continue;
         const double deep = std::min(deepest, depth(y + field.area.y + 1, x + field.area.x + 1));
-        weights(y, x) = static_cast<float>(std::pow(deeper, -deep) * std::exp(-field.distance(y, x) / spread));
+        const double unlike = std::min(least_likely, field.distance(y, x) / spread);
+        weights(y, x) = static_cast<float>(std::pow(deeper, -deep) * std::exp(-unlike));
       }
   });
   return weights;
