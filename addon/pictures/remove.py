@@ -7,7 +7,6 @@ from bpy.props import BoolProperty
 from .. import versions
 from ..bake import job, keeping, places
 from ..bake.operators import sentence_of
-from ..compositor import tree as node
 from ..properties import arrange, names
 from ..properties.picture import frame_size
 from ..ui import polls

@@ -18,7 +18,6 @@ from .endless import Canvas, endless_key, ways_of
 from .prepare import check_view
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
-from .stack import layer_images
 
 
 class Live:
