@@ -12,6 +12,7 @@ class STILLWATER_PG_frames(bpy.types.PropertyGroup):
     picture: StringProperty(options={"HIDDEN"})  # the picture's permanent id; empty: not a tree of ours
     scene: StringProperty(options={"HIDDEN"})  # name of the scene whose picture it is, where a copy has the same ids
     folder: StringProperty(name="Frames", description="Folder of the frames", subtype="DIR_PATH", options=names.PATH)
+    home: StringProperty(options={"HIDDEN"})  # folder of the .blend from which `folder` was last written
     name: StringProperty(name="Name", description="Frames are NAME_0001.exr", default="frame", options=set())
     first: IntProperty(name="First", description="First frame of the last bake", default=1, options=set())
     last: IntProperty(name="Last", description="Last frame of the last bake", default=1, options=set())

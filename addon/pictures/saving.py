@@ -12,9 +12,11 @@ from bpy.app.handlers import persistent
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..bake import job, places
+from ..compositor.tree import show
 from ..properties import image, migrate, names, paths
 
 _moved = ("", "")  # the folders from and to which paths were rewritten for the save that is going on
+_homes: set[str] = set()  # the folders in which the open file has lain since it was opened
 
 
 def own_scenes() -> list:
@@ -86,6 +88,7 @@ def _after(path: str, before: Path, after: Path) -> str:
 
 
 def _rebase(old: str, new: str) -> None:
+    _call_home(new)
     if old == new:
         return
     with image.held():
@@ -96,6 +99,36 @@ def _rebase(old: str, new: str) -> None:
     if not old or not new:  # else Blender does it
         for shown in _images():
             shown.filepath_raw = paths.rebased(shown.filepath_raw, old, new)
+
+
+def _call_home(folder: str) -> None:
+    """Notes that all relative paths start at this folder."""
+    _homes.add(folder)
+    for scene in own_scenes():
+        scene.stillwater.home = folder
+    for tree in own_trees():
+        tree.stillwater.home = folder
+
+
+@persistent
+def after_undo(*_):
+    """A step from before the file was saved in another folder: its paths start there, and go on from here."""
+    here = os.path.dirname(bpy.data.filepath)
+    for scene in own_scenes():
+        settings = scene.stillwater
+        if here and settings.home != here and settings.home in _homes:
+            with image.held():
+                for picture in settings.pictures:
+                    paths.rebase(picture, settings.home, here)
+            settings.home = here
+        for picture in settings.pictures:
+            image.follow(picture)
+    for tree in own_trees():
+        state = tree.stillwater
+        if here and state.home != here and state.home in _homes:
+            paths.rebase(state, state.home, here)
+            state.home = here
+            show(tree)
 
 
 def _images() -> set:
@@ -110,6 +143,8 @@ def after_load(*_):
         migrate.upgrade(scene)
     for picture in own_pictures():
         image.take_over(picture)
+    _homes.clear()
+    _call_home(os.path.dirname(bpy.data.filepath))
 
 
 @persistent
@@ -124,6 +159,7 @@ def after_import(context, *_):
         there = os.path.dirname(os.path.abspath(bpy.path.abspath(item.source_library.filepath)))
         if item.id_type == "NODETREE" and _is_ours(thing):
             paths.rebase(thing.stillwater, there, here)
+            thing.stillwater.home = here
         if item.id_type == "SCENE":
             _take_in(thing, there, here, [scene for scene in bpy.data.scenes if scene not in came])
 
@@ -132,6 +168,7 @@ def _take_in(scene, there: str, here: str, others: list) -> None:
     with image.held():
         for picture in scene.stillwater.pictures:
             paths.rebase(picture, there, here)
+    scene.stillwater.home = here
     migrate.upgrade(scene)
     for picture in scene.stillwater.pictures:
         image.take_over(picture)
@@ -147,5 +184,7 @@ HANDLERS = [
     ("save_post", after_save),
     ("save_post_fail", after_failure),
     ("load_post", after_load),
+    ("undo_post", after_undo),
+    ("redo_post", after_undo),
     ("blend_import_post", after_import),
 ]

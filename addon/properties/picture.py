@@ -172,6 +172,7 @@ class STILLWATER_PG_scene(bpy.types.PropertyGroup):
     pictures: CollectionProperty(type=STILLWATER_PG_picture)
     active_picture: IntProperty(min=0, options={"HIDDEN"})
     drawing: PointerProperty(type=STILLWATER_PG_drawing)
+    home: StringProperty(options={"HIDDEN"})  # folder of the .blend from which relative paths were last written
 
     def active(self):
         """The picture that panels and operators mean; None where there is none."""

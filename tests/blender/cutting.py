@@ -72,11 +72,11 @@ def scribble(scene, picture) -> None:
     lay(scene, picture, layer, background=[across(picture, 1.6)])
 
 
-def wait_for_sketch(extension, scene, picture, seconds=20.0) -> float:
-    """Stays until there is a sketch of the matte; how long that took."""
+def wait_for_sketch(extension, scene, picture, seconds=20.0, interval=0.005) -> float:
+    """Stays until there is a sketch of the matte, looked for every `interval` seconds; how long that took."""
     began = time.monotonic()
     while (stage := extension.play.show.stage_of(scene, picture)) is None or stage.sketch is None:
         extension.play.server.tick()
         assert time.monotonic() < began + seconds, stage and stage.problem
-        time.sleep(0.005)
+        time.sleep(interval)
     return time.monotonic() - began

@@ -155,6 +155,22 @@ def test_steps_from_before_the_first_save_show_the_frames_where_they_are_now(bak
         shows_its_frame(tmp_path)
 
 
+def test_steps_from_before_it_was_saved_elsewhere_find_everything(baked, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    for speed in (11, 12):
+        active().wind.speed = speed
+        bpy.ops.ed.undo_push(message="Wind")
+    (tmp_path / "other" / "deep").mkdir(parents=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "other" / "deep" / "file.blend"))
+    for step, speed in ((bpy.ops.ed.undo, 11), (bpy.ops.ed.redo, 12), (bpy.ops.ed.undo, 11)):
+        step()
+        works(tmp_path)
+        assert active().wind.speed == speed
+        assert active().layers[0].matte.file == "//../../art/matte.png"
+        assert active().tree.stillwater.folder == "//../../stillwater/lake/frames"
+        shows_its_frame(tmp_path)
+
+
 def test_blender_s_startup_file_takes_nothing_along(baked, tmp_path):
     before = [getattr(owner, name) for owner, name in paths.each(active())]
     bpy.ops.wm.save_homefile()
