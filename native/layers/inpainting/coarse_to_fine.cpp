@@ -18,7 +18,7 @@ namespace {
 
 constexpr int coarse_rounds = 3, fine_rounds = 1;  // of search and vote
 constexpr int passes = 2;                          // of a search
-constexpr double most_cut = 14000;                 // pixels of a hole that is cut anew
+constexpr double most_cut = 4000;                  // pixels of a hole that is cut anew
 constexpr size_t most_found = 64, most_in_front = 200, most_frequent = 60, most_settled = 4000;  // shifts tried
 constexpr int settled_reach = 8;
 constexpr int settling_rounds = 30;

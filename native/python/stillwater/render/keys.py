@@ -17,7 +17,7 @@ from .resolve import Now, Timeline
 # Raised by who changes what an engine computes: frames and preparations made by another version are made again.
 ENGINES = {
     "picture": 1,
-    "layers": 7,
+    "layers": 8,
     "frame": 5,
     "wind": 1,
     "still": 1,
