@@ -33,17 +33,40 @@ struct Buffer {
   Buffer& operator=(const Buffer&) = delete;
 };
 
+/// FFTW plans for one caller at a time.
+std::mutex& planner() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 /// The one plan of a size: a contiguous line, out of place.
 fftwf_plan plan_for(int n) {
-  static std::mutex mutex;
   static std::map<int, fftwf_plan> kept;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(planner());
   const auto found = kept.find(n);
   if (found != kept.end()) return found->second;
   const Buffer from(n), to(n);
   const fftwf_plan plan = fftwf_plan_dft_1d(n, from.data, to.data, FFTW_BACKWARD, FFTW_ESTIMATE);
   if (!plan) throw NotConverged("no Fourier transform can be planned for this size");
   return kept.emplace(n, plan).first->second;
+}
+
+struct PlanePlans {
+  fftwf_plan forward, inverse;
+};
+
+PlanePlans plane_plans(cv::Size size) {
+  static std::map<std::pair<int, int>, PlanePlans> kept;
+  const std::lock_guard lock(planner());
+  const auto found = kept.find({size.width, size.height});
+  if (found != kept.end()) return found->second;
+  const size_t numbers = static_cast<size_t>(size.width / 2 + 1) * size.height;
+  const Buffer plane(numbers), spectrum(numbers);
+  float* reals = plane.data[0];
+  const PlanePlans plans{fftwf_plan_dft_r2c_2d(size.height, size.width, reals, spectrum.data, FFTW_ESTIMATE),
+                         fftwf_plan_dft_c2r_2d(size.height, size.width, spectrum.data, reals, FFTW_ESTIMATE)};
+  if (!plans.forward || !plans.inverse) throw NotConverged("no Fourier transform can be planned for this size");
+  return kept.emplace(std::pair(size.width, size.height), plans).first->second;
 }
 
 }  // namespace
@@ -127,6 +150,37 @@ void InverseFft2::run(const Fill& fill) {
 
 const float* InverseFft2::tile_row(int y) const {
   return state_->rows.data[static_cast<size_t>(y / 2) * state_->stride] + static_cast<size_t>(y % 2) * state_->n;
+}
+
+void FftFree::operator()(void* memory) const { fftwf_free(memory); }
+
+FftFloats fft_floats(size_t count) {
+  FftFloats memory(fftwf_alloc_real(count));
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+FftSpectrum fft_spectrum(size_t count) {
+  FftSpectrum memory(reinterpret_cast<std::complex<float>*>(fftwf_alloc_complex(count)));
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+RealFft2::RealFft2(cv::Size size) : size_(size) {
+  check::size("plane", size.width, size.height);
+  const PlanePlans plans = plane_plans(size);
+  forward_ = plans.forward;
+  inverse_ = plans.inverse;
+}
+
+void RealFft2::forward(float* plane, std::complex<float>* spectrum) const {
+  const auto plan = static_cast<fftwf_plan>(const_cast<void*>(forward_));
+  fftwf_execute_dft_r2c(plan, plane, reinterpret_cast<fftwf_complex*>(spectrum));
+}
+
+void RealFft2::inverse(std::complex<float>* spectrum, float* plane) const {
+  const auto plan = static_cast<fftwf_plan>(const_cast<void*>(inverse_));
+  fftwf_execute_dft_c2r(plan, reinterpret_cast<fftwf_complex*>(spectrum), plane);
 }
 
 }  // namespace stillwater

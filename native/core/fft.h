@@ -3,8 +3,9 @@
 #include <complex>
 #include <functional>
 #include <memory>
+#include <opencv2/core/types.hpp>
 
-/// Fourier transforms of real square tiles, through FFTW. Plans are made with FFTW_ESTIMATE under one mutex and
+/// Fourier transforms of real planes, through FFTW. Plans are made with FFTW_ESTIMATE under one mutex and
 /// kept for the life of the process; buffers come from FFTW, so that their alignment, and with it every byte of
 /// the result, is the same in each run.
 ///
@@ -37,6 +38,39 @@ class InverseFft2 {
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// Memory aligned as FFTW wants it, so that the same plan, and the same bytes, serve every call.
+struct FftFree {
+  void operator()(void* memory) const;
+};
+using FftFloats = std::unique_ptr<float[], FftFree>;
+using FftSpectrum = std::unique_ptr<std::complex<float>[], FftFree>;
+FftFloats fft_floats(size_t count);
+FftSpectrum fft_spectrum(size_t count);
+
+/// Real plane <-> half spectrum, any size, neither way normalised: there and back multiplies by the number of pixels.
+/// A spectrum has `height` rows of width / 2 + 1 numbers, kx running from 0; row ky above height / 2 is ky - height.
+/// One object may serve several threads at once, each with its own memory (from fft_floats and fft_spectrum).
+class RealFft2 {
+ public:
+  /// Sides 1 .. largest_side. Throws BadInput.
+  explicit RealFft2(cv::Size size);
+
+  cv::Size size() const { return size_; }
+  int columns() const { return size_.width / 2 + 1; }
+  size_t pixels() const { return static_cast<size_t>(size_.width) * size_.height; }
+  size_t numbers() const { return static_cast<size_t>(columns()) * size_.height; }
+
+  /// `plane` stays as it is.
+  void forward(float* plane, std::complex<float>* spectrum) const;
+
+  /// `spectrum` is lost.
+  void inverse(std::complex<float>* spectrum, float* plane) const;
+
+ private:
+  cv::Size size_;
+  const void *forward_, *inverse_;  // FFTW's plans
 };
 
 }  // namespace stillwater

@@ -38,6 +38,11 @@ _HOMES = {
     "ripple": "motion",
     "wave_heights": "motion",
     "Live": "render.live",
+    "steerable_pyramid": "appearance",
+    "collapse_pyramid": "appearance",
+    "match_histogram": "appearance",
+    "match_texture": "appearance",
+    "motion_blur": "appearance",
 }
 
 __all__ = sorted(_HOMES)

@@ -1,3 +1,8 @@
+from .appearance import collapse_pyramid as collapse_pyramid
+from .appearance import match_histogram as match_histogram
+from .appearance import match_texture as match_texture
+from .appearance import motion_blur as motion_blur
+from .appearance import steerable_pyramid as steerable_pyramid
 from .images import linear_to_srgb as linear_to_srgb
 from .images import read as read
 from .images import read_clip as read_clip

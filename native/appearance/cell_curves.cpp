@@ -1,0 +1,165 @@
+#include "appearance/cell_curves.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace stillwater {
+namespace {
+
+constexpr int mantissa = 23;
+
+/// Places of values between the bins' borders. The bits of a positive float, as a number, are its logarithm with straight
+/// pieces between powers of two.
+struct Ruler {
+  float centre, floor, middle, scale;
+  std::int32_t start, end;
+
+  explicit Ruler(const Bins& bins)
+      : centre(bins.centre),
+        floor(bins.floor),
+        middle(static_cast<float>(bins.count() / 2)),
+        scale(1.0f / static_cast<float>(1 << (mantissa - bins.fine))),
+        start(std::bit_cast<std::int32_t>(bins.floor)),
+        end(bins.doublings << mantissa) {}
+
+  float operator()(float x) const {
+    const float away = x - centre;
+    const std::int32_t steps = std::min(std::bit_cast<std::int32_t>(std::abs(away) + floor) - start, end);
+    return middle + std::copysign(static_cast<float>(steps) * scale, away);
+  }
+};
+
+/// A tile's share of the cells around it: 1 - distance of its middle to the cell's, in cells.
+float weight(int tile, int cell) {
+  constexpr float tiles = CellAxis::tiles_a_cell;
+  const float away = std::abs((static_cast<float>(tile) + 0.5f) / tiles - (static_cast<float>(cell) + 0.5f));
+  return std::max(0.0f, 1 - away);
+}
+
+/// Adds a row of tiles' counts to a row of cells.
+void gather(const std::vector<std::uint32_t>& tiles, int cells, int count, std::vector<float>& row) {
+  std::fill(row.begin(), row.end(), 0.0f);
+  for (int cell = 0; cell < cells; ++cell)
+    for (int tile = 0; tile < cells * CellAxis::tiles_a_cell; ++tile) {
+      const float part = weight(tile, cell);
+      if (part <= 0) continue;
+      const std::uint32_t* from = tiles.data() + static_cast<size_t>(tile) * count;
+      float* to = row.data() + static_cast<size_t>(cell) * count;
+      for (int bin = 0; bin < count; ++bin) to[bin] += part * static_cast<float>(from[bin]);
+    }
+}
+
+/// Histograms of cells, row by row.
+std::vector<float> cell_counts(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins) {
+  const int count = bins.count();
+  const Ruler place(bins);
+  std::vector<std::uint32_t> tiles(static_cast<size_t>(x.cells) * CellAxis::tiles_a_cell * count);
+  std::vector<float> row(static_cast<size_t>(x.cells) * count), cells(row.size() * y.cells);
+  std::vector<std::int32_t> bin(plane.width);
+  for (int first = 0; first < y.inside;) {
+    const int tile_row = y.tile[first];
+    std::fill(tiles.begin(), tiles.end(), 0u);
+    for (; first < y.inside && y.tile[first] == tile_row; ++first) {
+      const float* values = plane.data + first * plane.stride;
+      for (int i = 0; i < x.inside; ++i) bin[i] = std::min(static_cast<std::int32_t>(place(values[i])), count - 1);
+      for (int i = 0; i < x.inside; ++i) ++tiles[static_cast<size_t>(x.tile[i]) * count + bin[i]];
+    }
+    gather(tiles, x.cells, count, row);
+    for (int cell = 0; cell < y.cells; ++cell) {
+      const float part = weight(tile_row, cell);
+      if (part <= 0) continue;
+      float* to = cells.data() + cell * row.size();
+      for (size_t i = 0; i < row.size(); ++i) to[i] += part * row[i];
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+Bins Bins::of(float centre, float largest, bool even) {
+  constexpr float smallest = 1e-6f;  // what is smaller is rounding
+  const float unit = std::exp2(std::floor(std::log2(std::max(largest, smallest))));
+  return even ? Bins{centre, unit / 4, 5, 5} : Bins{centre, unit / 256, 3, 12};
+}
+
+float Bins::value(float position) const {
+  const float away = position - static_cast<float>(count() / 2);
+  const auto steps = static_cast<std::int32_t>(std::abs(away) * static_cast<float>(1 << (mantissa - fine)));
+  return centre + std::copysign(std::bit_cast<float>(std::bit_cast<std::int32_t>(floor) + steps) - floor, away);
+}
+
+CellAxis::CellAxis(int side, int cell_count, int samples, double step) : cells(cell_count) {
+  inside = std::min(samples, static_cast<int>(std::ceil(side / step)));
+  for (int i = 0; i < samples; ++i) {
+    const double at = i < inside ? std::min(i * step + 0.5, side - 0.5) : i * step < (side + samples * step) / 2 ? side : 0;
+    if (i < inside) tile.push_back(std::min(static_cast<int>(at * cells * tiles_a_cell / side), cells * tiles_a_cell - 1));
+    const double among = std::clamp(at * cells / side - 0.5, 0.0, cells - 1.0);
+    cell.push_back(std::clamp(static_cast<int>(among), 0, std::max(0, cells - 2)));
+    share.push_back(static_cast<float>(among - cell.back()));
+  }
+}
+
+CellShares cell_shares(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins) {
+  const std::vector<float> counts = cell_counts(plane, x, y, bins);
+  const int count = bins.count();
+  CellShares shares;
+  shares.reserve(counts.size() + counts.size() / count);
+  for (size_t cell = 0; cell < counts.size(); cell += count) {
+    double all = 0, below = 0;
+    for (int bin = 0; bin < count; ++bin) all += counts[cell + bin];
+    shares.push_back(0);
+    for (int bin = 0; bin < count; ++bin) {
+      below += counts[cell + bin];
+      shares.push_back(static_cast<float>(below / all));
+    }
+  }
+  return shares;
+}
+
+CellCurves cell_curves(const CellShares& from, const CellShares& to, const Bins& bins) {
+  const int count = bins.count();
+  std::vector<float> border(count + 1);
+  for (int i = 0; i <= count; ++i) border[i] = bins.value(static_cast<float>(i));
+  CellCurves curves(from.size());
+  for (size_t cell = 0; cell < from.size(); cell += count + 1) {
+    const float *wanted = from.data() + cell, *below = to.data() + cell;
+    int bin = 0;
+    while (bin < count - 1 && below[bin + 1] <= 0) ++bin;
+    for (int i = 0; i <= count; ++i) {
+      while (bin < count - 1 && below[bin + 1] < wanted[i]) ++bin;
+      const float width = below[bin + 1] - below[bin];
+      const float part = width > 0 ? std::clamp((wanted[i] - below[bin]) / width, 0.0f, 1.0f) : 0.0f;
+      curves[cell + i] = border[bin] + part * (border[bin + 1] - border[bin]);
+    }
+  }
+  return curves;
+}
+
+void apply(const CellCurves& curves, const CellAxis& x, const CellAxis& y, const Bins& bins, const Samples& plane) {
+  const int count = bins.count(), numbers = count + 1;
+  const Ruler place(bins);
+  const size_t row_size = static_cast<size_t>(x.cells) * numbers;
+  std::vector<float> row(row_size), places(plane.width);
+  const int next = x.cells > 1 ? numbers : 0;
+  for (int j = 0; j < plane.height; ++j) {
+    const float* above = curves.data() + y.cell[j] * row_size;
+    const float* below = y.cells > 1 ? above + row_size : above;
+    const float lower = y.share[j];
+    for (size_t i = 0; i < row_size; ++i) row[i] = above[i] + lower * (below[i] - above[i]);
+    float* values = plane.data + j * plane.stride;
+    for (int i = 0; i < plane.width; ++i) places[i] = place(values[i]);
+    for (int i = 0; i < plane.width; ++i) {
+      const int bin = std::min(static_cast<int>(places[i]), count - 1);
+      const float part = places[i] - static_cast<float>(bin);
+      const float* left = row.data() + x.cell[i] * numbers + bin;
+      const float* right = left + next;
+      const float a = left[0] + part * (left[1] - left[0]), b = right[0] + part * (right[1] - right[0]);
+      values[i] = a + x.share[i] * (b - a);
+    }
+  }
+}
+
+}  // namespace stillwater
