@@ -77,6 +77,18 @@ std::vector<float> cell_counts(const Samples& plane, const CellAxis& x, const Ce
   return cells;
 }
 
+/// Beyond the values that were counted (of samples beyond the side, of other frames) the curve goes on straight, as steep as it
+/// is on the whole.
+void go_on(const std::vector<float>& border, const float* shares, float* curve) {
+  const int count = static_cast<int>(border.size()) - 1;
+  int first = 0, last = count;
+  while (first < count - 1 && shares[first + 1] <= 0) ++first;
+  while (last > first + 1 && shares[last - 1] >= shares[count]) --last;
+  const float slope = (curve[last] - curve[first]) / (border[last] - border[first]);
+  for (int i = 0; i < first; ++i) curve[i] = curve[first] + slope * (border[i] - border[first]);
+  for (int i = last + 1; i <= count; ++i) curve[i] = curve[last] + slope * (border[i] - border[last]);
+}
+
 }  // namespace
 
 Bins Bins::of(float centre, float largest, bool even) {
@@ -126,14 +138,28 @@ CellCurves cell_curves(const CellShares& from, const CellShares& to, const Bins&
   CellCurves curves(from.size());
   for (size_t cell = 0; cell < from.size(); cell += count + 1) {
     const float *wanted = from.data() + cell, *below = to.data() + cell;
-    int bin = 0;
-    while (bin < count - 1 && below[bin + 1] <= 0) ++bin;
-    for (int i = 0; i <= count; ++i) {
-      while (bin < count - 1 && below[bin + 1] < wanted[i]) ++bin;
+    const auto value_in = [&](int bin, float share) {
       const float width = below[bin + 1] - below[bin];
-      const float part = width > 0 ? std::clamp((wanted[i] - below[bin]) / width, 0.0f, 1.0f) : 0.0f;
-      curves[cell + i] = border[bin] + part * (border[bin + 1] - border[bin]);
+      const float part = width > 0 ? std::clamp((share - below[bin]) / width, 0.0f, 1.0f) : 0.0f;
+      return border[bin] + part * (border[bin + 1] - border[bin]);
+    };
+    int lowest = 0;
+    while (lowest < count - 1 && below[lowest + 1] <= 0) ++lowest;
+    for (int i = 0; i <= count; ++i) {
+      while (lowest < count - 1 && below[lowest + 1] < wanted[i]) ++lowest;
+      // Where `to` has empty bins a whole range of values has this share. What lies left of the border needs its lower end,
+      // what lies right of it the upper.
+      const bool left = i > 0 && wanted[i] > wanted[i - 1], right = i < count && wanted[i + 1] > wanted[i];
+      float value = value_in(lowest, wanted[i]);
+      if (right) {
+        int highest = lowest;
+        while (highest < count - 1 && below[highest + 1] <= wanted[i]) ++highest;
+        const float upper = value_in(highest, wanted[i]);
+        value = left ? 0.5f * (value + upper) : upper;
+      }
+      curves[cell + i] = value;
     }
+    go_on(border, wanted, curves.data() + cell);
   }
   return curves;
 }

@@ -53,7 +53,8 @@ struct Samples {
 using CellShares = std::vector<float>;
 CellShares cell_shares(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins);
 
-/// For each cell count() + 1 numbers: what the value at each border becomes, so that shares `from` become shares `to`.
+/// For each cell count() + 1 numbers: what the value at each border becomes, so that shares `from` become shares `to`. Rises,
+/// and goes on straight beyond the values that `from` has.
 using CellCurves = std::vector<float>;
 CellCurves cell_curves(const CellShares& from, const CellShares& to, const Bins& bins);
 

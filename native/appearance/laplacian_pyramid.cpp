@@ -27,7 +27,7 @@ std::vector<Plane> laplacian_pyramid(const Plane& image, int scales) {
     Plane smaller, larger;
     cv::pyrDown(levels.back(), smaller, half(levels.back().size()));
     cv::pyrUp(smaller, larger, levels.back().size());
-    levels.back() = levels.back() - larger;
+    levels.back() = Plane(levels.back() - larger);
     levels.push_back(smaller);
   }
   return levels;
@@ -42,7 +42,7 @@ Plane collapse(const std::vector<Plane>& laplacian) {
       throw BadInput("levels: " + shape(picture) + " is not half of " + shape(laplacian[level]));
     Plane larger;
     cv::pyrUp(picture, larger, laplacian[level].size());
-    picture = larger + laplacian[level];
+    picture = Plane(larger + laplacian[level]);
   }
   return picture;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -77,7 +78,7 @@ Histogram thinned(const Histogram& all, int points) {
 
 Histogram histogram(const Plane& plane, int points) {
   check::not_empty("plane", plane);
-  if (points != 0) check::in_range("points", points, 2, 1 << 24);
+  if (points != 0) check::in_range("points", points, 2, 65536);
   const std::vector<Entry> entries = sorted(plane);
   Histogram all;
   each_run(entries, [&](size_t first, size_t last) {

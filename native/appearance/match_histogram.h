@@ -12,7 +12,7 @@ struct Histogram {
   std::vector<float> values, ranks;
 };
 
-/// `points`: the most values kept, evenly spaced in rank, the extremes among them; 0 keeps all. 4096 leave an error of rank
+/// `points`: the most values kept, 2 .. 65536, evenly spaced in rank, the extremes among them; 0 keeps all. 4096 leave an error of rank
 /// of 1 / 4096. Throws BadInput where the plane is empty or a pixel is not finite.
 Histogram histogram(const Plane& plane, int points = 4096);
 

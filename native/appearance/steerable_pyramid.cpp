@@ -11,16 +11,30 @@
 namespace stillwater {
 namespace {
 
-Plane plane_of(const RealFft2& transform, const float* values) {
+/// OpenCV's own memory is aligned; memory of others may not be.
+bool usable(const Plane& plane) { return plane.isContinuous() && fft_aligned(plane[0]); }
+
+/// `spectrum` is lost.
+Plane plane_of(const RealFft2& transform, std::complex<float>* spectrum) {
   Plane plane(transform.size());
-  std::copy_n(values, transform.pixels(), plane[0]);
+  if (usable(plane)) {
+    transform.inverse(spectrum, plane[0]);
+  } else {
+    const FftFloats values = fft_floats(transform.pixels());
+    transform.inverse(spectrum, values.get());
+    std::copy_n(values.get(), transform.pixels(), plane[0]);
+  }
   return plane;
 }
 
 FftSpectrum spectrum_of(const RealFft2& transform, const Plane& plane) {
+  FftSpectrum spectrum = fft_spectrum(transform.numbers());
+  if (usable(plane)) {
+    transform.forward(const_cast<float*>(plane[0]), spectrum.get());
+    return spectrum;
+  }
   const FftFloats values = fft_floats(transform.pixels());
   for (int y = 0; y < plane.rows; ++y) std::copy_n(plane[y], plane.cols, values.get() + static_cast<size_t>(y) * plane.cols);
-  FftSpectrum spectrum = fft_spectrum(transform.numbers());
   transform.forward(values.get(), spectrum.get());
   return spectrum;
 }
@@ -51,15 +65,12 @@ SteerablePyramid steerable_pyramid(const Plane& image, const SteerableParameters
   parallel_rows(filters->bands(), 1, [&](int band, int) {
     const RealFft2& transform = filters->transform_of(band);
     const FftSpectrum spectrum = fft_spectrum(transform.numbers());
-    const FftFloats values = fft_floats(transform.pixels());
     filters->analyse(band, picture.get(), spectrum.get());
-    transform.inverse(spectrum.get(), values.get());
-    *planes[band] = plane_of(transform, values.get());
+    *planes[band] = plane_of(transform, spectrum.get());
     if (!parameters.complex || band == 0 || band + 1 == filters->bands()) return;
     filters->analyse_quadrature(band, picture.get(), spectrum.get());
-    transform.inverse(spectrum.get(), values.get());
     pyramid.quadrature[(band - 1) / parameters.orientations][(band - 1) % parameters.orientations] =
-        plane_of(transform, values.get());
+        plane_of(transform, spectrum.get());
   });
   return pyramid;
 }
@@ -88,9 +99,7 @@ Plane collapse(const SteerablePyramid& pyramid) {
   const FftSpectrum picture = fft_spectrum(transform.numbers());
   parallel_rows(transform.size().height, 32,
                 [&](int first, int last) { filters->synthesise(bands, first, last, picture.get()); });
-  const FftFloats values = fft_floats(transform.pixels());
-  transform.inverse(picture.get(), values.get());
-  return plane_of(transform, values.get());
+  return plane_of(transform, picture.get());
 }
 
 }  // namespace stillwater

@@ -166,6 +166,8 @@ FftSpectrum fft_spectrum(size_t count) {
   return memory;
 }
 
+bool fft_aligned(const float* memory) { return fftwf_alignment_of(const_cast<float*>(memory)) == 0; }
+
 RealFft2::RealFft2(cv::Size size) : size_(size) {
   check::size("plane", size.width, size.height);
   const PlanePlans plans = plane_plans(size);

@@ -48,10 +48,11 @@ using FftFloats = std::unique_ptr<float[], FftFree>;
 using FftSpectrum = std::unique_ptr<std::complex<float>[], FftFree>;
 FftFloats fft_floats(size_t count);
 FftSpectrum fft_spectrum(size_t count);
+bool fft_aligned(const float* memory);  ///< as memory of fft_floats
 
 /// Real plane <-> half spectrum, any size, neither way normalised: there and back multiplies by the number of pixels.
 /// A spectrum has `height` rows of width / 2 + 1 numbers, kx running from 0; row ky above height / 2 is ky - height.
-/// One object may serve several threads at once, each with its own memory (from fft_floats and fft_spectrum).
+/// One object may serve several threads at once, each with its own memory: aligned.
 class RealFft2 {
  public:
   /// Sides 1 .. largest_side. Throws BadInput.

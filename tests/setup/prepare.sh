@@ -35,7 +35,7 @@ venv() {
 # Builds the engine's wheel and installs it. `prepare_engine wheel` stops at the wheel, and asks for no more than that.
 prepare_engine() {
   local wanted="scikit-build-core pybind11"
-  [ "${1:-}" = wheel ] || wanted="numpy msgspec tqdm $wanted pytest pytest-timeout hypothesis scipy pillow"
+  [ "${1:-}" = wheel ] || wanted="numpy msgspec tqdm $wanted pytest pytest-timeout hypothesis scipy pillow pyrtools"
   install_packages $build_packages $run_packages || return 1
   venv "$build/venv" $wanted || return 1
   local state

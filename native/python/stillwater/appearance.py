@@ -28,7 +28,8 @@ def steerable_pyramid(image: ArrayLike, scales: int = 4, orientations: int = 4, 
     """Take a plane apart by size and orientation.
 
     Any size, odd ones too; level s has ceil(side / 2^s) pixels a side. Beyond its sides the plane begins anew. The
-    frame is tight: the energy of all bands, each counted times 4^scale, is the plane's (for sides that halve evenly).
+    frame is tight: squares of all coefficients, those of scale s divided by 4^s, add up to the plane's (sides that halve
+    evenly).
 
     Args:
         image: height x width.
