@@ -77,6 +77,17 @@ std::vector<float> cell_counts(const Samples& plane, const CellAxis& x, const Ce
   return cells;
 }
 
+/// Over bins in which nothing was counted the curve is straight.
+void bridge(const std::vector<float>& border, const float* shares, float* curve) {
+  const int count = static_cast<int>(border.size()) - 1;
+  for (int first = 0, last; first < count; first = last) {
+    for (last = first + 1; last < count && shares[last + 1] <= shares[first];) ++last;
+    if (shares[last] > shares[first]) continue;
+    const float slope = (curve[last] - curve[first]) / (border[last] - border[first]);
+    for (int i = first + 1; i < last; ++i) curve[i] = curve[first] + slope * (border[i] - border[first]);
+  }
+}
+
 /// Beyond the values that were counted (of samples beyond the side, of other frames) the curve goes on straight, as steep as it
 /// is on the whole.
 void go_on(const std::vector<float>& border, const float* shares, float* curve) {
@@ -159,6 +170,7 @@ CellCurves cell_curves(const CellShares& from, const CellShares& to, const Bins&
       }
       curves[cell + i] = value;
     }
+    bridge(border, wanted, curves.data() + cell);
     go_on(border, wanted, curves.data() + cell);
   }
   return curves;
