@@ -38,6 +38,10 @@ _HOMES = {
     "ripple": "motion",
     "wave_heights": "motion",
     "Live": "render.live",
+    "paint_flow": "flow_painting",
+    "propose_flow": "flow_painting",
+    "refine_flow": "flow_painting",
+    "streaks": "flow_painting",
 }
 
 __all__ = sorted(_HOMES)
