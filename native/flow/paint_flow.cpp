@@ -15,10 +15,11 @@
 namespace stillwater {
 namespace {
 
-constexpr double orientation_tolerance = 0.01;  // of unit vectors
-constexpr double speed_tolerance = 0.005;       // of the largest speed
+constexpr double orientation_tolerance = 0.03;  // of unit vectors
+constexpr double speed_tolerance = 0.02;        // of the largest speed
 constexpr double cancelled = 0.1;               // directions that add up to less say nothing
-constexpr int most_centres = 2000;
+constexpr int usual_centres = 600, most_centres = 2000;  // as many do for some 50 strokes; the cost is their third power
+constexpr int centres_a_stroke = 12;
 
 struct Drawn {
   const FlowStroke* stroke;
@@ -51,7 +52,16 @@ std::vector<PaintedTrack> tracks_of(const std::vector<Drawn>& all, FlowStrokeKin
   return tracks;
 }
 
-RadialInterpolation interpolated(const std::vector<StrokePixel>& pixels, bool directed, double tolerance) {
+struct Accuracy {
+  double tolerance;
+  int centres;
+};
+
+Accuracy accuracy(double tolerance, std::size_t strokes) {
+  return {tolerance, std::clamp(centres_a_stroke * static_cast<int>(strokes), usual_centres, most_centres)};
+}
+
+RadialInterpolation interpolated(const std::vector<StrokePixel>& pixels, bool directed, const Accuracy& accuracy) {
   std::vector<Point> places;
   Eigen::MatrixXd values(static_cast<Eigen::Index>(pixels.size()), directed ? 2 : 1);
   for (const StrokePixel& pixel : pixels) {
@@ -59,7 +69,7 @@ RadialInterpolation interpolated(const std::vector<StrokePixel>& pixels, bool di
     places.push_back({pixel.index.x + 0.5, pixel.index.y + 0.5});
     for (Eigen::Index c = 0; c < values.cols(); ++c) values(row, c) = pixel.value[static_cast<int>(c)];
   }
-  return {places, values, {.tolerance = tolerance, .most_centres = most_centres}};
+  return {places, values, {.tolerance = accuracy.tolerance, .most_centres = accuracy.centres}};
 }
 
 cv::Vec2d direction(const cv::Vec2d& v) {
@@ -68,12 +78,12 @@ cv::Vec2d direction(const cv::Vec2d& v) {
 }
 
 /// What weaker strokes say, each pulled to what the firm ones say there; those that then say nothing are left out.
-std::vector<StrokePixel> weakened(const std::vector<StrokePixel>& pixels, bool directed, double tolerance) {
+std::vector<StrokePixel> weakened(const std::vector<StrokePixel>& pixels, bool directed, const Accuracy& accuracy) {
   std::vector<StrokePixel> firm, all;
   for (const StrokePixel& pixel : pixels)
     if (pixel.strength >= 1) firm.push_back(pixel);
   if (firm.empty() || firm.size() == pixels.size()) return pixels;
-  const RadialInterpolation base = interpolated(firm, directed, tolerance);
+  const RadialInterpolation base = interpolated(firm, directed, accuracy);
   for (StrokePixel pixel : pixels) {
     if (pixel.strength < 1) {
       const Eigen::MatrixXd there = base.at({{pixel.index.x + 0.5, pixel.index.y + 0.5}});
@@ -123,8 +133,8 @@ Plane interpolated_speed(const std::vector<PaintedTrack>& tracks, cv::Size pictu
   if (pixels.empty()) throw BadInput("strokes: none of those that say a speed touches the picture");
   double largest = 0;
   for (const StrokePixel& pixel : pixels) largest = std::max(largest, pixel.value[0]);
-  const double tolerance = std::max(1e-6, speed_tolerance * largest);
-  return cv::max(radial_fill<float>(interpolated(weakened(pixels, false, tolerance), false, tolerance), picture), 0.0f);
+  const Accuracy wanted = accuracy(std::max(1e-6, speed_tolerance * largest), tracks.size());
+  return cv::max(radial_fill<float>(interpolated(weakened(pixels, false, wanted), false, wanted), picture), 0.0f);
 }
 
 void slide_along(PaintedFlow& flow) {
@@ -145,8 +155,8 @@ Field paint_orientation(const std::vector<FlowStroke>& strokes, cv::Size picture
   const std::vector<StrokePixel> pixels = stroke_pixels(tracks, picture);
   if (pixels.empty())
     throw BadInput("strokes: none that touches the picture is of kind orientation or both, with an alpha above 0");
-  const RadialInterpolation field = interpolated(weakened(pixels, true, orientation_tolerance), true, orientation_tolerance);
-  Field orientation = radial_fill<cv::Vec2f>(field, picture);
+  const Accuracy wanted = accuracy(orientation_tolerance, tracks.size());
+  Field orientation = radial_fill<cv::Vec2f>(interpolated(weakened(pixels, true, wanted), true, wanted), picture);
   normalise(orientation);
   lay_local_directions(all, orientation);
   return orientation;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double furthest = 1e6;         // px
 constexpr double shortest = 1;           // px; what is shorter says no direction
-constexpr double shortest_half_chord = 2;  // px
+constexpr double shortest_half_chord = 4;  // px
 
 void check_stroke(const FlowStroke& stroke, const std::string& name) {
   if (stroke.points.empty()) throw BadInput(name + ".points: none is not one point or more");
@@ -71,7 +71,7 @@ StrokeTrack track_of(const FlowStroke& stroke, const std::string& name) {
   if (directed && line.length() < shortest)
     throw BadInput(name + ".points: a line shorter than 1 px is not a direction");
 
-  const double half_chord = std::max(shortest_half_chord, stroke.width / 2);
+  const double half_chord = std::max(shortest_half_chord, stroke.width);
   const int steps = static_cast<int>(std::ceil(line.length() / std::max(1.0, stroke.width / 2)));
   StrokeTrack track;
   cv::Point2d low(furthest, furthest), high(-furthest, -furthest);

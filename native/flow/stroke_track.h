@@ -20,7 +20,7 @@ struct StrokeTrack {
   cv::Rect2d box;                 ///< around all that lies under the stroke
 };
 
-/// The tangent is the chord from half a width before to half a width behind a place (at least 2 px): a pen's trembling,
+/// The tangent is the chord from a width before to a width behind a place (at least 4 px): a pen's trembling,
 /// which is finer than the brush, turns nothing. At the ends it is the chord of what there is.
 ///
 /// Throws BadInput, with `name` in its sentence: no points, a place that is not finite or further out than 1e6 px, a pressure
