@@ -17,21 +17,23 @@ namespace {
 
 constexpr int steps = 12;  // each way
 constexpr double most_pixels = 640 * 400;
+constexpr double density = 1.0 / 72;  // seeds a pixel
 constexpr double usual_fast = 0.95;   // of what moves
 constexpr float least_share = 0.02f;  // of that speed; what is slower stands still
 constexpr float clear_share = 0.25f;  // from here on streaks are at their clearest
 constexpr float largest_root = 1.4f;  // of speed over the usual fast one
-constexpr double steepness = 1.3;     // of the tone, in standard deviations
+constexpr float contrast = 2.2f;
 
+/// The window, alone and times e^(i pi t), at t = 0, 1/steps, ..., 1.
 struct Kernel {
-  std::array<float, steps + 1> window, cosine, sine;  // at 0, 1/steps, ..., 1
+  std::array<float, steps + 1> window, cosine, sine;
 };
 
 Kernel make_kernel() {
   Kernel kernel;
   for (int j = 0; j <= steps; ++j) {
-    const double t = static_cast<double>(j) / steps, wave = 2 * std::numbers::pi * t;
-    const double window = std::pow(std::cos(std::numbers::pi * t / 2), 2);
+    const double t = static_cast<double>(j) / steps, wave = std::numbers::pi * t;
+    const double window = std::pow(std::cos(wave / 2), 2) / 2;
     kernel.window[j] = static_cast<float>(window);
     kernel.cosine[j] = static_cast<float>(window * std::cos(wave));
     kernel.sine[j] = static_cast<float>(window * std::sin(wave));
@@ -39,26 +41,25 @@ Kernel make_kernel() {
   return kernel;
 }
 
-/// The standard deviation of the sum for noise of variance 1, in the mean over the phases.
-double deviation(const Kernel& kernel) {
-  double square = 0;
-  for (int j = 0; j <= steps; ++j) {
-    const double both = j == 0 ? 1 : 2;
-    square += both * (kernel.window[j] * kernel.window[j] * 1.5) / 4;
-  }
-  return std::sqrt(square);
-}
-
 cv::Size working_size(cv::Size size) {
   const double scale = std::min(1.0, std::sqrt(most_pixels / size.area()));
   return {std::max(1, static_cast<int>(size.width * scale)), std::max(1, static_cast<int>(size.height * scale))};
 }
 
-Plane noise(cv::Size size, std::uint64_t seed) {
-  Plane plane(size);
-  const auto root = static_cast<float>(std::sqrt(12.0));
-  parallel_pixels(size, [&](int y, int x) { plane(y, x) = root * static_cast<float>(random_uniform(seed, {x, y, 0}) - 0.5); });
-  return plane;
+using Seeds = cv::Mat_<cv::Vec3f>;  // a seed's colour (1 or -1), and that times its phase's cosine and sine
+
+Seeds sow(cv::Size size, std::uint64_t seed) {
+  Seeds seeds(size), soft;
+  parallel_pixels(size, [&](int y, int x) {
+    const double drawn = random_uniform(seed, {x, y, 0});
+    seeds(y, x) = {};
+    if (drawn >= density) return;
+    const auto colour = drawn < density / 2 ? 1.0f : -1.0f;
+    const double phase = 2 * std::numbers::pi * random_uniform(seed, {x, y, 1});
+    seeds(y, x) = {colour, colour * static_cast<float>(std::cos(phase)), colour * static_cast<float>(std::sin(phase))};
+  });
+  cv::sepFilter2D(seeds, soft, CV_32F, cv::Vec3f(0.3f, 1, 0.3f), cv::Vec3f(0.3f, 1, 0.3f));
+  return soft;
 }
 
 /// The speed that a share of what moves does not pass; 0 where nothing moves.
@@ -86,8 +87,20 @@ float smooth_step(float t) {
   return x * x * (3 - 2 * x);
 }
 
-/// The three sums along one streamline, one way (`way` 1 downstream, -1 up), without its middle.
-void follow(const Field& step, const Plane& grain, const Kernel& kernel, int y, int x, float way, float* sums) {
+/// The three sums of a place on a streamline: the steady one, and the moving one at phases 0 and a quarter.
+struct Sums {
+  float steady = 0, cosine = 0, sine = 0;
+
+  void add(const Kernel& kernel, int j, float way, const cv::Vec3f& seed) {
+    const float sine_here = way * kernel.sine[j];
+    steady += kernel.window[j] * seed[0];
+    cosine += kernel.cosine[j] * seed[1] - sine_here * seed[2];
+    sine += sine_here * seed[1] + kernel.cosine[j] * seed[2];
+  }
+};
+
+/// Along a streamline one way (`way` 1 downstream, -1 up), without its middle.
+void follow(const Field& step, const Seeds& seeds, const Kernel& kernel, int y, int x, float way, Sums& sums) {
   float at_x = static_cast<float>(x) + 0.5f, at_y = static_cast<float>(y) + 0.5f;
   cv::Vec2f by = step(y, x);
   for (int j = 1; j <= steps; ++j) {
@@ -95,10 +108,7 @@ void follow(const Field& step, const Plane& grain, const Kernel& kernel, int y, 
     at_y += way * by[1];
     if (!(at_x >= 0 && at_y >= 0 && at_x < static_cast<float>(step.cols) && at_y < static_cast<float>(step.rows))) return;
     const int u = static_cast<int>(at_x), v = static_cast<int>(at_y);
-    const float value = grain(v, u);
-    sums[0] += kernel.window[j] * value;
-    sums[1] += kernel.cosine[j] * value;
-    sums[2] += way * kernel.sine[j] * value;
+    sums.add(kernel, j, way, seeds(v, u));
     by = step(v, u);
   }
 }
@@ -129,19 +139,19 @@ Streaks::Streaks(const Field& flow, const StreakParameters& parameters) : size_(
   });
 
   static const Kernel kernel = make_kernel();
-  const auto scale = static_cast<float>(0.5 * steepness / deviation(kernel));
-  const Plane grain = noise(work, parameters.seed);
+  const Seeds seeds = sow(work, parameters.seed);
   steady_ = Plane(work);
   cosine_ = Plane(work);
   sine_ = Plane(work);
   parallel_pixels(work, [&](int y, int x) {
-    const float middle = grain(y, x);
-    float sums[3] = {middle, middle, 0};
-    if (opacity_(y, x) > 0)
-      for (const float way : {1.0f, -1.0f}) follow(step, grain, kernel, y, x, way, sums);
-    steady_(y, x) = scale * sums[0];
-    cosine_(y, x) = scale * sums[1];
-    sine_(y, x) = scale * sums[2];
+    Sums sums;
+    if (opacity_(y, x) > 0) {
+      sums.add(kernel, 0, 1, seeds(y, x));
+      for (const float way : {1.0f, -1.0f}) follow(step, seeds, kernel, y, x, way, sums);
+    }
+    steady_(y, x) = sums.steady;
+    cosine_(y, x) = sums.cosine;
+    sine_(y, x) = sums.sine;
   });
 }
 
@@ -152,7 +162,7 @@ Rgba Streaks::at(double phase, cv::Size size) const {
   const auto cosine = static_cast<float>(std::cos(turn)), sine = static_cast<float>(std::sin(turn));
   Plane tone(steady_.size());  // signed: light above 0
   parallel_pixels(tone.size(), [&](int y, int x) {
-    const float value = steady_(y, x) + cosine * cosine_(y, x) - sine * sine_(y, x);
+    const float value = contrast * (steady_(y, x) + cosine * cosine_(y, x) - sine * sine_(y, x));
     tone(y, x) = opacity_(y, x) * value / std::sqrt(1 + value * value);
   });
   if (size != tone.size()) {

@@ -118,15 +118,15 @@ def streaks(
     phase: float = 0.0,
     *,
     size: tuple[int, int] | None = None,
-    length: float = 0.03,
-    strength: float = 0.85,
+    length: float = 0.04,
+    strength: float = 0.75,
     seed: int = 0,
 ) -> Array:
     """A flow made visible: streaks along it, light and dark, to be laid over any picture with `over`.
 
     Args:
         flow: height x width x 2, px/frame.
-        phase: of the streaks' motion; 0..1 is one turn, in which they run half their length downstream, and 1 is 0 again.
+        phase: of the streaks' motion; 0..1 is one turn, in which they run their length downstream, and 1 is 0 again.
         size: (width, height) of the result, px; None is the flow's.
         length: of a streak where the flow is fast, in parts of the picture's diagonal, 0.001..0.5.
         strength: 0..1, opacity of the clearest streaks.
