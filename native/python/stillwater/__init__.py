@@ -31,6 +31,8 @@ _HOMES = {
     "read": "images",
     "write": "images",
     "read_clip": "images",
+    "read_flow": "images",
+    "write_flow": "images",
     "srgb_to_linear": "images",
     "linear_to_srgb": "images",
     "Ripple": "motion",

@@ -5,8 +5,10 @@ from .flow_painting import streaks as streaks
 from .images import linear_to_srgb as linear_to_srgb
 from .images import read as read
 from .images import read_clip as read_clip
+from .images import read_flow as read_flow
 from .images import srgb_to_linear as srgb_to_linear
 from .images import write as write
+from .images import write_flow as write_flow
 from .inpainting import inpaint as inpaint
 from .inpainting import make_cyclic as make_cyclic
 from .layers import displace as displace
