@@ -13,8 +13,8 @@ namespace {
 
 using Bytes = cv::Mat_<unsigned char>;
 
-constexpr double reach_share = 0.012;  // of the diagonal
-constexpr double least_reach = 4;      // px
+constexpr double reach_share = 0.015;  // of the diagonal
+constexpr double least_reach = 6;      // px
 constexpr float flattest = 0.5f;       // slope of the distance above which its direction is a normal
 
 /// From each pixel of value 255 to the border of the nearest one of value 0, px; 0 at those.

@@ -5,7 +5,7 @@
 /// What a painted flow may not run through: the outline of its layer, and what is held still.
 namespace stillwater {
 
-/// How far an obstacle is felt: 0.012 of the picture's diagonal, at least 4 px.
+/// How far an obstacle is felt: 0.015 of the picture's diagonal, at least 6 px.
 double obstacle_reach(cv::Size picture);
 
 /// Where a flow may not cross: at each pixel the outline's normal times the root of the share of the flow across it that is

@@ -10,7 +10,7 @@ namespace stillwater {
 namespace {
 
 constexpr int pitch = 8;  // px, between the grid's nodes
-constexpr int near = 2;   // cells: centres no further off are evaluated at each pixel
+constexpr int near = 3;   // cells: centres no further off are evaluated at each pixel
 constexpr int taps = 4;
 
 using Weights = std::array<std::array<float, taps>, pitch>;

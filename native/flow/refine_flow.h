@@ -13,7 +13,7 @@ struct RefineParameters {
 
 /// Turns a painted flow along the picture's own streaks (Okabe et al. 2009, 5.1; METHODS.md 2, "Refinement"):
 ///
-///     I      = luma of the picture, blurred by a Gaussian of 5 x 5 px
+///     I      = luma of the picture, blurred by a Gaussian of 5 x 5 px (binomial)
 ///     G      = grad I (Sobel)
 ///     Psi_o  = the unit vector across G with Psi_o . Phi_o > 0
 ///     Psi_o <- normalised(Gaussian(w_f) of |G| Psi_o)

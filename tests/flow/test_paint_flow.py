@@ -247,8 +247,8 @@ def test_bad_strokes(strokes, sentence):
     "more, sentence",
     [
         ({"size": (0, 5)}, "picture: 0 x 5 is not between 1 and 16384 pixels a side"),
-        ({"bound": np.ones((3, 4))}, "bound: 4 x 3 is not the size of picture (240 x 160)"),
-        ({"freeze": np.ones((3, 4))}, "freeze: 4 x 3 is not the size of picture (240 x 160)"),
+        ({"bound": np.ones((3, 4))}, "bound: 4 x 3 is not the size of picture, 240 x 160"),
+        ({"freeze": np.ones((3, 4))}, "freeze: 4 x 3 is not the size of picture, 240 x 160"),
         ({"bound": np.zeros((160, 240))}, "bound: a matte that is nowhere 0.1 or more is not a layer"),
         ({"bound": np.full((160, 240), 2)}, "bound[0, 0]: 2 is not between 0 and 1"),
         ({"freeze": np.full((160, 240), -1)}, "freeze[0, 0]: -1 is not between 0 and 1"),
