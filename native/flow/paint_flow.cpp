@@ -18,7 +18,8 @@ namespace {
 constexpr double orientation_tolerance = 0.03;  // of unit vectors
 constexpr double speed_tolerance = 0.02;        // of the largest speed
 constexpr double cancelled = 0.1;               // directions that add up to less say nothing
-constexpr int usual_centres = 600, most_centres = 2000;  // as many do for some 50 strokes; the cost is their third power
+// The cost is their third power; the eye forgives speeds more than directions.
+constexpr int usual_centres = 600, usual_speed_centres = 300, most_centres = 2000;
 constexpr int centres_a_stroke = 12;
 
 struct Drawn {
@@ -57,8 +58,8 @@ struct Accuracy {
   int centres;
 };
 
-Accuracy accuracy(double tolerance, std::size_t strokes) {
-  return {tolerance, std::clamp(centres_a_stroke * static_cast<int>(strokes), usual_centres, most_centres)};
+Accuracy accuracy(double tolerance, std::size_t strokes, int usual) {
+  return {tolerance, std::clamp(centres_a_stroke * static_cast<int>(strokes), usual, most_centres)};
 }
 
 RadialInterpolation interpolated(const std::vector<StrokePixel>& pixels, bool directed, const Accuracy& accuracy) {
@@ -128,13 +129,47 @@ void lay_local_speeds(const std::vector<Drawn>& all, Plane& speed) {
   }
 }
 
-Plane interpolated_speed(const std::vector<PaintedTrack>& tracks, cv::Size picture) {
+/// What the interpolation of one kind starts from.
+struct Ready {
+  std::vector<StrokePixel> pixels;
+  Accuracy accuracy;
+};
+
+Ready ready_orientation(const std::vector<Drawn>& all, cv::Size picture) {
+  std::vector<PaintedTrack> tracks = tracks_of(all, FlowStrokeKind::orientation, false);
+  if (tracks.empty()) tracks = tracks_of(all, FlowStrokeKind::orientation, true);
+  const Ready ready{stroke_pixels(tracks, picture), accuracy(orientation_tolerance, tracks.size(), usual_centres)};
+  if (ready.pixels.empty())
+    throw BadInput("strokes: none that touches the picture is of kind orientation or both, with an alpha above 0");
+  return ready;
+}
+
+/// Without pixels where no global stroke says a speed.
+Ready ready_speed(const std::vector<Drawn>& all, cv::Size picture) {
+  const std::vector<PaintedTrack> tracks = tracks_of(all, FlowStrokeKind::speed, false);
+  if (tracks.empty()) return {};
   const std::vector<StrokePixel> pixels = stroke_pixels(tracks, picture);
   if (pixels.empty()) throw BadInput("strokes: none of those that say a speed touches the picture");
   double largest = 0;
   for (const StrokePixel& pixel : pixels) largest = std::max(largest, pixel.value[0]);
-  const Accuracy wanted = accuracy(std::max(1e-6, speed_tolerance * largest), tracks.size());
-  return cv::max(radial_fill<float>(interpolated(weakened(pixels, false, wanted), false, wanted), picture), 0.0f);
+  return {pixels, accuracy(std::max(1e-6, speed_tolerance * largest), tracks.size(), usual_speed_centres)};
+}
+
+Field finished_orientation(const Ready& ready, const std::vector<Drawn>& all, cv::Size picture) {
+  const RadialInterpolation between = interpolated(weakened(ready.pixels, true, ready.accuracy), true, ready.accuracy);
+  Field orientation = radial_fill<cv::Vec2f>(between, picture);
+  normalise(orientation);
+  lay_local_directions(all, orientation);
+  return orientation;
+}
+
+Plane finished_speed(const Ready& ready, const std::vector<Drawn>& all, cv::Size picture) {
+  const bool all_local = std::all_of(all.begin(), all.end(), [](const Drawn& one) { return one.stroke->local; });
+  Plane speed(picture, static_cast<float>(all_local ? 0 : FlowStroke().speed));
+  if (!ready.pixels.empty())
+    speed = cv::max(radial_fill<float>(interpolated(weakened(ready.pixels, false, ready.accuracy), false, ready.accuracy), picture), 0.0f);
+  lay_local_speeds(all, speed);
+  return speed;
 }
 
 void slide_along(PaintedFlow& flow) {
@@ -150,26 +185,12 @@ void slide_along(PaintedFlow& flow) {
 
 Field paint_orientation(const std::vector<FlowStroke>& strokes, cv::Size picture) {
   const std::vector<Drawn> all = drawn(strokes, picture);
-  std::vector<PaintedTrack> tracks = tracks_of(all, FlowStrokeKind::orientation, false);
-  if (tracks.empty()) tracks = tracks_of(all, FlowStrokeKind::orientation, true);
-  const std::vector<StrokePixel> pixels = stroke_pixels(tracks, picture);
-  if (pixels.empty())
-    throw BadInput("strokes: none that touches the picture is of kind orientation or both, with an alpha above 0");
-  const Accuracy wanted = accuracy(orientation_tolerance, tracks.size());
-  Field orientation = radial_fill<cv::Vec2f>(interpolated(weakened(pixels, true, wanted), true, wanted), picture);
-  normalise(orientation);
-  lay_local_directions(all, orientation);
-  return orientation;
+  return finished_orientation(ready_orientation(all, picture), all, picture);
 }
 
 Plane paint_speed(const std::vector<FlowStroke>& strokes, cv::Size picture) {
   const std::vector<Drawn> all = drawn(strokes, picture);
-  const std::vector<PaintedTrack> tracks = tracks_of(all, FlowStrokeKind::speed, false);
-  const bool all_local = std::all_of(all.begin(), all.end(), [](const Drawn& one) { return one.stroke->local; });
-  const auto elsewhere = static_cast<float>(all_local ? 0 : FlowStroke().speed);
-  Plane speed = tracks.empty() ? Plane(picture, elsewhere) : interpolated_speed(tracks, picture);
-  lay_local_speeds(all, speed);
-  return speed;
+  return finished_speed(ready_speed(all, picture), all, picture);
 }
 
 void bound_flow(PaintedFlow& flow, const Plane& bound, const Plane& freeze) {
@@ -185,7 +206,13 @@ void bound_flow(PaintedFlow& flow, const Plane& bound, const Plane& freeze) {
 }
 
 PaintedFlow paint_flow(const std::vector<FlowStroke>& strokes, cv::Size picture, const Plane& bound, const Plane& freeze) {
-  PaintedFlow flow{paint_orientation(strokes, picture), paint_speed(strokes, picture), {}};
+  const std::vector<Drawn> all = drawn(strokes, picture);
+  const Ready orientation = ready_orientation(all, picture), speed = ready_speed(all, picture);
+  PaintedFlow flow;
+  parallel_rows(2, 1, [&](int part, int) {
+    if (part == 0) flow.orientation = finished_orientation(orientation, all, picture);
+    else flow.speed = finished_speed(speed, all, picture);
+  });
   bound_flow(flow, bound, freeze);
   return flow;
 }

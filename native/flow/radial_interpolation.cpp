@@ -9,7 +9,7 @@
 namespace stillwater {
 namespace {
 
-constexpr int first_centres = 32;
+constexpr int first_centres = 96;
 constexpr int grain = 256;                // places
 constexpr double steps_of_tolerance = 1024;  // misses are compared in whole numbers of these
 

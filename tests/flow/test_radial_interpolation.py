@@ -48,7 +48,7 @@ def test_all_places_as_centres_is_scipy_s(count, columns, seed):
 def test_a_subset_meets_all_places_and_is_near_the_dense_solution(tolerance):
     places, values = curves()
     ours = engine.RadialInterpolation(places, values, tolerance)
-    assert 32 < ours.centres < 0.85 * len(places)
+    assert 96 < ours.centres < 0.85 * len(places)
     misses = np.linalg.norm(np.array(ours.at(places)) - values, axis=1)
     assert misses.max() <= tolerance * 1.002
     elsewhere = np.random.default_rng(4).uniform([0, 0], SIZE, (2000, 2))
@@ -64,14 +64,14 @@ def test_fewer_centres_than_needed_go_where_most_is_missed():
         assert ours.centres == most
         return np.linalg.norm(np.array(ours.at(places)) - values, axis=1)
 
-    few, more = missed(64), missed(256)
+    few, more = missed(120), missed(400)
     assert more.max() < few.max() and more.mean() < few.mean() / 2
 
 
 def test_equal_values_need_no_more_than_the_first_centres():
     places = scattered(500, 3)
     ours = engine.RadialInterpolation(places, np.full((500, 1), 2.5), 0.01)
-    assert ours.centres == 32
+    assert ours.centres == 96
     assert np.abs(np.array(ours.at([[0, 0], [1000, -50]])) - 2.5).max() < 1e-9
 
 
@@ -85,6 +85,6 @@ def test_the_filled_picture_is_the_interpolation_at_its_pixels(columns, size):
     x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
     exact = np.array(ours.at(np.stack([x.ravel(), y.ravel()], axis=1)))
     apart = np.linalg.norm(filled - exact, axis=1)
-    assert apart.max() < 2 / 100 and apart.mean() < 2 / 3000
+    assert apart.max() < 2 / 100 and apart.mean() < 2 / 1500
     at_centres = filled[(places[:, 1].astype(int) * size[0] + places[:, 0].astype(int))]
     assert np.abs(at_centres - np.array(ours.at(places))).max() < 2 / 100
