@@ -1,7 +1,6 @@
 #include "flow/streaks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -15,22 +14,23 @@
 namespace stillwater {
 namespace {
 
-constexpr int steps = 12;  // each way
-constexpr double most_pixels = 640 * 400;
+constexpr int fewest_steps = 8;
+constexpr double most_pixels = 600 * 360;
 constexpr double density = 1.0 / 72;  // seeds a pixel
 constexpr double usual_fast = 0.95;   // of what moves
 constexpr float least_share = 0.02f;  // of that speed; what is slower stands still
 constexpr float clear_share = 0.25f;  // from here on streaks are at their clearest
-constexpr float largest_root = 1.4f;  // of speed over the usual fast one
+constexpr float largest_root = 1.2f;  // of speed over the usual fast one
 constexpr float contrast = 2.2f;
 
 /// The window, alone and times e^(i pi t), at t = 0, 1/steps, ..., 1.
 struct Kernel {
-  std::array<float, steps + 1> window, cosine, sine;
+  int steps;
+  std::vector<float> window, cosine, sine;
 };
 
-Kernel make_kernel() {
-  Kernel kernel;
+Kernel make_kernel(int steps) {
+  Kernel kernel{steps, std::vector<float>(steps + 1), std::vector<float>(steps + 1), std::vector<float>(steps + 1)};
   for (int j = 0; j <= steps; ++j) {
     const double t = static_cast<double>(j) / steps, wave = std::numbers::pi * t;
     const double window = std::pow(std::cos(wave / 2), 2) / 2;
@@ -99,18 +99,34 @@ struct Sums {
   }
 };
 
-/// Along a streamline one way (`way` 1 downstream, -1 up), without its middle.
-void follow(const Field& step, const Seeds& seeds, const Kernel& kernel, int y, int x, float way, Sums& sums) {
-  float at_x = static_cast<float>(x) + 0.5f, at_y = static_cast<float>(y) + 0.5f;
-  cv::Vec2f by = step(y, x);
-  for (int j = 1; j <= steps; ++j) {
-    at_x += way * by[0];
-    at_y += way * by[1];
-    if (!(at_x >= 0 && at_y >= 0 && at_x < static_cast<float>(step.cols) && at_y < static_cast<float>(step.rows))) return;
-    const int u = static_cast<int>(at_x), v = static_cast<int>(at_y);
+/// A place that goes along a streamline.
+struct Walker {
+  float x, y, way;  ///< index coordinates + 0.5; 1 downstream, -1 up
+  cv::Vec2f by;
+  bool inside = true;
+
+  void step(const Field& steps_of, const Seeds& seeds, const Kernel& kernel, int j, Sums& sums) {
+    x += way * by[0];
+    y += way * by[1];
+    inside = x >= 0 && y >= 0 && x < static_cast<float>(steps_of.cols) && y < static_cast<float>(steps_of.rows);
+    if (!inside) return;
+    const int u = static_cast<int>(x), v = static_cast<int>(y);
+    by = steps_of(v, u);
     sums.add(kernel, j, way, seeds(v, u));
-    by = step(v, u);
   }
+};
+
+/// Along a pixel's streamline. Both ways at once: a processor waits for neither of two chains of places.
+Sums follow(const Field& step, const Seeds& seeds, const Kernel& kernel, int y, int x) {
+  Sums sums, up;
+  const float at_x = static_cast<float>(x) + 0.5f, at_y = static_cast<float>(y) + 0.5f;
+  Walker forth{at_x, at_y, 1, step(y, x)}, back{at_x, at_y, -1, step(y, x)};
+  sums.add(kernel, 0, 1, seeds(y, x));
+  for (int j = 1; j <= kernel.steps; ++j) {
+    if (forth.inside) forth.step(step, seeds, kernel, j, sums);
+    if (back.inside) back.step(step, seeds, kernel, j, up);
+  }
+  return {sums.steady + up.steady, sums.cosine + up.cosine, sums.sine + up.sine};
 }
 
 }  // namespace
@@ -124,7 +140,9 @@ Streaks::Streaks(const Field& flow, const StreakParameters& parameters) : size_(
   if (work == flow.size()) step = flow.clone();
   else cv::resize(flow, step, work, 0, 0, cv::INTER_AREA);
   const float fast = fast_speed(step);
-  const auto longest = static_cast<float>(parameters.length * std::hypot(work.width, work.height) / 2 / steps);
+  const double half_length = parameters.length * std::hypot(work.width, work.height) / 2;
+  const Kernel kernel = make_kernel(std::max(fewest_steps, static_cast<int>(std::ceil(half_length))));  // steps of 1 px
+  const auto longest = static_cast<float>(half_length / kernel.steps);
   opacity_ = Plane::zeros(work);
   parallel_pixels(work, [&](int y, int x) {
     cv::Vec2f& v = step(y, x);
@@ -138,17 +156,12 @@ Streaks::Streaks(const Field& flow, const StreakParameters& parameters) : size_(
     v *= longest * std::min(largest_root, std::sqrt(share)) / speed;
   });
 
-  static const Kernel kernel = make_kernel();
   const Seeds seeds = sow(work, parameters.seed);
   steady_ = Plane(work);
   cosine_ = Plane(work);
   sine_ = Plane(work);
   parallel_pixels(work, [&](int y, int x) {
-    Sums sums;
-    if (opacity_(y, x) > 0) {
-      sums.add(kernel, 0, 1, seeds(y, x));
-      for (const float way : {1.0f, -1.0f}) follow(step, seeds, kernel, y, x, way, sums);
-    }
+    const Sums sums = opacity_(y, x) > 0 ? follow(step, seeds, kernel, y, x) : Sums();
     steady_(y, x) = sums.steady;
     cosine_(y, x) = sums.cosine;
     sine_(y, x) = sums.sine;

@@ -21,7 +21,7 @@ struct StreakParameters {
 /// So each seed is a streak that runs downstream, fading in and out, no two together. The cosine of a sum is two products: a
 /// streamline is followed once, for three sums, and each phase is made of those. A streak's length goes with the root of its
 /// speed, so that slow places show something too; speeds count by the one that 95 % of what moves don't pass. The picture is
-/// worked at in at most 0.26 megapixels: streaks grow with it, and look the same on a screen.
+/// worked at in at most 0.22 megapixels: streaks grow with it, and look the same on a screen.
 class Streaks {
  public:
   /// `flow`: px per frame. Throws BadInput for a flow without pixels or with a vector that is not finite, and for parameters
