@@ -166,8 +166,13 @@ Field finished_orientation(const Ready& ready, const std::vector<Drawn>& all, cv
 Plane finished_speed(const Ready& ready, const std::vector<Drawn>& all, cv::Size picture) {
   const bool all_local = std::all_of(all.begin(), all.end(), [](const Drawn& one) { return one.stroke->local; });
   Plane speed(picture, static_cast<float>(all_local ? 0 : FlowStroke().speed));
-  if (!ready.pixels.empty())
-    speed = cv::max(radial_fill<float>(interpolated(weakened(ready.pixels, false, ready.accuracy), false, ready.accuracy), picture), 0.0f);
+  if (!ready.pixels.empty()) {
+    const auto slower = [](const StrokePixel& a, const StrokePixel& b) { return a.value[0] < b.value[0]; };
+    const auto [slowest, fastest] = std::minmax_element(ready.pixels.begin(), ready.pixels.end(), slower);
+    const RadialInterpolation between = interpolated(weakened(ready.pixels, false, ready.accuracy), false, ready.accuracy);
+    speed = radial_fill<float>(between, picture);
+    speed = cv::min(cv::max(speed, static_cast<float>(slowest->value[0])), static_cast<float>(fastest->value[0]));
+  }
   lay_local_speeds(all, speed);
   return speed;
 }

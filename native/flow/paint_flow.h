@@ -18,7 +18,8 @@ struct PaintedFlow {
 /// speed brush a number. Okabe et al. 2009, 5.1; METHODS.md 2, "Flow painting".
 ///
 /// - Both are interpolated over the picture by the radial basis function phi(r) = r (radial_interpolation.h), x and y of the
-///   orientation apart and then normalised; speeds below 0 become 0. What lies under the strokes is met within 0.03 (1.7
+///   orientation apart and then normalised. Beyond the strokes a speed would run on: it is held between the slowest and the
+///   fastest that were painted. What lies under the strokes is met within 0.03 (1.7
 ///   degrees), speeds within 2 % of the largest one, as long as 600 centres (12 a stroke, at most 2000) do for that: against
 ///   the solution on all of the strokes' pixels, 30 strokes that partly cross are 0.5 degrees off in the mean, 3 in 99 % of the
 ///   picture. Where x and y both vanish, the direction is to the right.
