@@ -20,7 +20,7 @@ constexpr double speed_tolerance = 0.02;        // of the largest speed
 constexpr double cancelled = 0.1;               // directions that add up to less say nothing
 // The cost is their third power; the eye forgives speeds more than directions.
 constexpr int usual_centres = 600, usual_speed_centres = 300, most_centres = 2000;
-constexpr int centres_a_stroke = 12;
+constexpr int centres_a_stroke = 8;
 
 struct Drawn {
   const FlowStroke* stroke;

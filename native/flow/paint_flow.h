@@ -20,7 +20,7 @@ struct PaintedFlow {
 /// - Both are interpolated over the picture by the radial basis function phi(r) = r (radial_interpolation.h), x and y of the
 ///   orientation apart and then normalised. Beyond the strokes a speed would run on: it is held between the slowest and the
 ///   fastest that were painted. What lies under the strokes is met within 0.03 (1.7
-///   degrees), speeds within 2 % of the largest one, as long as 600 centres (12 a stroke, at most 2000) do for that: against
+///   degrees), speeds within 2 % of the largest one, as long as 600 centres (8 a stroke, at most 2000) do for that: against
 ///   the solution on all of the strokes' pixels, 30 strokes that partly cross are 0.5 degrees off in the mean, 3 in 99 % of the
 ///   picture. Where x and y both vanish, the direction is to the right.
 /// - A later stroke paints over an earlier one where they cross. Two that run against each other side by side both hold, and
