@@ -124,6 +124,7 @@ void lay_local_speeds(const std::vector<Drawn>& all, Plane& speed) {
   for (const Drawn& one : all) {
     if (!one.stroke->local || !one.says(FlowStrokeKind::speed)) continue;
     const LocalLayer layer = local_layer(one.track, one.stroke->alpha, speed.size());
+    if (layer.box.empty()) continue;
     Plane below = speed(layer.box);
     below += layer.matte.mul(static_cast<float>(one.stroke->speed) - below);
   }

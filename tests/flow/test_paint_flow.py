@@ -187,6 +187,11 @@ def test_what_lies_outside_is_left_out():
     assert np.abs(flow.orientation - (1, 0)).max() < 1e-5 and np.abs(flow.speed - 5).max() < 0.01
 
 
+def test_a_local_stroke_outside_changes_nothing():
+    flow = painted(right(), stroke((400, 40), (500, 40), local=True, speed=9))
+    assert np.array_equal(flow.speed, painted(right()).speed)
+
+
 def test_a_dot_says_a_speed():
     flow = painted(right(20, speed=1), stroke((120, 120), kind="speed", speed=6, width=20))
     assert flow.speed[120, 120] == pytest.approx(6, abs=0.1)
