@@ -8,6 +8,7 @@
 #include "core/process.h"
 #include "picture/clip.h"
 #include "picture/colour.h"
+#include "picture/flow_file.h"
 #include "picture/read.h"
 #include "picture/read_frame.h"
 #include "picture/write_frame.h"
@@ -135,6 +136,17 @@ void bind_picture(py::module_& module) {
             return as_array(without_gil([&] { return clip.frame(number, width, height); }));
           },
           py::arg("number"), py::arg("width"), py::arg("height"));
+
+  module.def(
+      "read_flow", [](const std::string& path) { return as_array(without_gil([&] { return read_flow(path); })); },
+      py::arg("path"));
+  module.def(
+      "write_flow",
+      [](const std::string& path, const FloatArray& flow) {
+        const Field field = as_image<cv::Vec2f>(flow, "flow");
+        without_gil([&] { write_flow(path, field); });
+      },
+      py::arg("path"), py::arg("flow"));
 
   module.def("temporary_name", &temporary_name, py::arg("path"));
   module.def("sweep_temporaries", &sweep_temporaries, py::arg("folder"), NoGil());

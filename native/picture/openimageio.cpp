@@ -9,9 +9,7 @@
 #include "core/parallel.h"
 
 namespace stillwater {
-namespace {
-
-/// Finds out what OpenImageIO would not say clearly.
+// Finds out what OpenImageIO would not say clearly.
 void require_readable_file(const std::string& path) {
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
@@ -22,8 +20,6 @@ void require_readable_file(const std::string& path) {
   if (!file) throw FileError(path + ": cannot be read (" + std::generic_category().message(errno) + ")");
   if (std::fgetc(file.get()) == EOF) throw FileError(path + ": the file is empty");
 }
-
-}  // namespace
 
 void give_threads_to_openimageio() {
   OIIO::attribute("threads", threads());

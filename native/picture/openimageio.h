@@ -11,6 +11,9 @@ namespace stillwater {
 /// Lets OpenImageIO and OpenEXR use as many threads as the engine does.
 void give_threads_to_openimageio();
 
+/// Throws FileError where there is no such file, it is a folder, holds nothing or may not be read.
+void require_readable_file(const std::string& path);
+
 /// Opens a picture or clip, header only. Alpha is left as the file has it ("oiio:UnassociatedAlpha" tells which).
 /// Throws FileError where there is no such file, it is a folder, holds nothing, may not be read, or where nothing
 /// that OpenImageIO knows fits it.

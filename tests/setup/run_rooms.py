@@ -37,7 +37,7 @@ class Outcome:
 
 def rooms() -> list[str]:
     """Every folder of tests/ that holds test files, in the engine's order as far as it has one."""
-    order = ["structure", "core", "picture", "layers", "motion", "appearance", "frame", "recipe", "render", "cli", "fuzz", "golden"]
+    order = ["structure", "core", "picture", "layers", "motion", "flow", "appearance", "frame", "recipe", "render", "cli", "fuzz", "golden"]
     found = {path.parent.relative_to(TESTS).parts[0] for path in TESTS.rglob("test_*.py")} - BLENDER_ROOMS.keys()
     return sorted(found, key=lambda room: (order.index(room) if room in order else len(order), room))
 

@@ -1,3 +1,7 @@
+from .flow_painting import paint_flow as paint_flow
+from .flow_painting import propose_flow as propose_flow
+from .flow_painting import refine_flow as refine_flow
+from .flow_painting import streaks as streaks
 from .appearance import collapse_pyramid as collapse_pyramid
 from .appearance import match_histogram as match_histogram
 from .appearance import match_texture as match_texture
@@ -6,8 +10,10 @@ from .appearance import steerable_pyramid as steerable_pyramid
 from .images import linear_to_srgb as linear_to_srgb
 from .images import read as read
 from .images import read_clip as read_clip
+from .images import read_flow as read_flow
 from .images import srgb_to_linear as srgb_to_linear
 from .images import write as write
+from .images import write_flow as write_flow
 from .inpainting import inpaint as inpaint
 from .inpainting import make_cyclic as make_cyclic
 from .layers import displace as displace

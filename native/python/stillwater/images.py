@@ -115,6 +115,41 @@ def read_clip(
     return read_frames
 
 
+def read_flow(path: str | os.PathLike[str]) -> Array:
+    """Read a flow field.
+
+    Args:
+        path: the file; .flo (Middlebury), or .exr with channels X and Y, or those of a layer (NAME.X, NAME.Y), as the frames
+            that `render` writes have; other channels are ignored. What a .flo file marks as unknown counts as 0.
+
+    Returns:
+        height x width x 2, px/frame, x right, y down.
+
+    Raises:
+        OSError: the file is missing, a folder, empty, not a flow, cut short, or may not be read.
+        ValueError: another extension, no such channels, or numbers that are not finite.
+
+    Source: Baker et al. 2011, "A database and evaluation methodology for optical flow" (.flo).
+    """
+    return engine.read_flow(os.fspath(path))
+
+
+def write_flow(path: str | os.PathLike[str], flow: ArrayLike) -> None:
+    """Write a flow field, as .flo (Middlebury) or as .exr with channels X and Y; floats. What `read_flow` reads.
+
+    Args:
+        path: the file; its extension says how.
+        flow: height x width x 2, px/frame, x right, y down.
+
+    Raises:
+        OSError: the file can't be written.
+        ValueError: another shape or extension.
+
+    Source: Baker et al. 2011, "A database and evaluation methodology for optical flow" (.flo).
+    """
+    engine.write_flow(os.fspath(path), flow)
+
+
 def srgb_to_linear(a: ArrayLike) -> Array:
     """Display-referred numbers to scene-linear ones, by the sRGB curve.
 
