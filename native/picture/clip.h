@@ -7,14 +7,12 @@
 
 namespace stillwater {
 
-/// A clip of footage, read one frame at a time through OpenImageIO's FFmpeg reader (names that end in .mp4, .mov,
-/// .avi, .m4v, .mpg, .qt, .3gp). Only one frame is in memory.
+/// A clip of footage, read one frame at a time (video_stream.h). Only one frame is in memory.
 ///
-/// Frames are counted from 1. A frame is always reached by reading on from one before it, or from the beginning,
-/// never by the container's index, which gives other frames in files that were cut without encoding or have a
-/// variable rate: so any order of reading gives the same frames, and going back costs the way from the beginning.
-/// OpenImageIO doesn't empty the decoder at the end: where frames are stored out of order (B-frames), the last one or
-/// two of a clip repeat the one before them.
+/// Frames are counted from 1, as they are stored, whatever their times are. A frame is always reached by reading on from
+/// one before it, or from the beginning, never by the container's index, which gives other frames in files that were cut
+/// without encoding or have a variable rate: so any order of reading gives the same frames, and going back costs the way
+/// from the beginning.
 class Clip {
  public:
   /// Throws FileError where the file is missing, not to be read or not a clip, BadInput where a side is above
@@ -24,8 +22,8 @@ class Clip {
   Clip(Clip&&) noexcept;
   Clip& operator=(Clip&&) noexcept;
 
-  int frames() const;  ///< as the file's header says
-  double fps() const;
+  int frames() const;
+  double fps() const;  ///< 0 where the file doesn't say
   int width() const;
   int height() const;
 

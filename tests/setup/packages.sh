@@ -1,7 +1,8 @@
 # What Debian's package manager brings. Sourced by prepare.sh.
 
 build_packages="g++ cmake ninja-build pkg-config python3 python3-dev python3-venv
-  libopencv-dev libopenimageio-dev libfftw3-dev libeigen3-dev"
+  libopencv-dev libopenimageio-dev libavformat-dev libavcodec-dev libswscale-dev
+  libfftw3-dev libeigen3-dev"
 run_packages="ffmpeg"
 blender_packages="libxi6 libxxf86vm1 libxfixes3 libxrender1 libxkbcommon0 libsm6 libice6 libgl1 libegl1
   libegl-mesa0 libgl1-mesa-dri"

@@ -85,10 +85,10 @@ def write(path: str | os.PathLike[str], image: ArrayLike, *, bits: int | None = 
 def read_clip(
     path: str | os.PathLike[str], frames: tuple[int, int] | None = None, size: tuple[int, int] | None = None
 ) -> Array:
-    """Read frames of a clip, through OpenImageIO's FFmpeg reader. One frame at a time is decoded.
+    """Read frames of a clip, through FFmpeg. One frame at a time is decoded.
 
     Args:
-        path: the file (.mp4, .mov, .avi, .m4v, .mpg, .qt, .3gp).
+        path: the file: anything that FFmpeg reads (.mp4, .mov, .mkv, .webm, .avi, ...).
         frames: first and last, both read, counted from 1; None is the whole clip.
         size: (width, height) in pixels; None is the clip's. Smaller ones are averaged over areas.
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/image.h"
+
+namespace stillwater {
+
+/// The frames of a video file, one after the other, through FFmpeg's libraries: whatever they know (mp4, mov, mkv, webm,
+/// avi, mpg, animated gif, ...).
+///
+/// Not through OpenImageIO: before its version 3.2 (pull request 5301) its reader lets swscale write past the end of a
+/// buffer where rows are no multiple of 16 pixels, and it never empties the decoder at a clip's end.
+class VideoStream {
+ public:
+  /// Throws FileError where the file is missing or not to be read, is a picture, holds no video, or a codec that is not
+  /// there.
+  explicit VideoStream(const std::string& path);
+  ~VideoStream();
+  VideoStream(VideoStream&&) noexcept;
+  VideoStream& operator=(VideoStream&&) noexcept;
+
+  int width() const;   ///< upright: as the file says that it is to be turned
+  int height() const;
+  double fps() const;  ///< 0 where the file doesn't say
+
+  /// Of a stream that nothing was read from yet: how many frames are stored, found by reading on to the end.
+  int count_to_end();
+
+  /// Decodes the next frame; false at the end. Throws FileError where it can't be decoded.
+  bool advance();
+
+  /// The frame advance() decoded: display-referred red, green, blue, upright; the file's own range and primaries' matrix
+  /// (where it doesn't say: Rec. 709 from 720 rows on, else Rec. 601). Throws FileError.
+  cv::Mat_<cv::Vec3f> frame() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace stillwater
