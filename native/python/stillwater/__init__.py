@@ -37,6 +37,8 @@ _HOMES = {
     "bob": "motion",
     "ripple": "motion",
     "wave_heights": "motion",
+    "advect": "flow",
+    "flow_map": "flow",
     "Live": "render.live",
 }
 

@@ -1,3 +1,5 @@
+from .flow import advect as advect
+from .flow import flow_map as flow_map
 from .images import linear_to_srgb as linear_to_srgb
 from .images import read as read
 from .images import read_clip as read_clip
