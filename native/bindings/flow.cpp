@@ -4,6 +4,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
+#include "flow/flow_cycle.h"
 #include "flow/flow_map.h"
 
 namespace stillwater {
@@ -37,6 +38,13 @@ py::array_t<float> advect_array(const FloatArray& image, const FloatArray& veloc
 }  // namespace
 
 void bind_flow(py::module_& module) {
+  const Flow usual;
+  py::class_<Flow>(module, "Flow")
+      .def(py::init([](double cycle, const std::vector<double>& ways, double step, int field, int next_field,
+                       double next_share) { return Flow{cycle, ways, step, field, next_field, next_share}; }),
+           py::kw_only(), py::arg("cycle") = usual.cycle, py::arg("ways") = std::vector<double>{0, 0},
+           py::arg("step") = usual.step, py::arg("field") = usual.field, py::arg("next_field") = usual.next_field,
+           py::arg("next_share") = usual.next_share);
   module.def("flow_map", &flow_map_array, py::arg("velocity"), py::arg("frames"));
   module.def("advect", &advect_array, py::arg("image"), py::arg("velocity"), py::arg("frames"));
 }

@@ -22,5 +22,6 @@ PYBIND11_MODULE(_stillwater, module) {
   stillwater::bind_motion(module);
   stillwater::bind_water(module);
   stillwater::bind_flow(module);
+  stillwater::bind_flow_painting(module);
   stillwater::bind_frame(module);
 }

@@ -15,6 +15,7 @@ void bind_inpaint(pybind11::module_& module);
 void bind_motion(pybind11::module_& module);
 void bind_water(pybind11::module_& module);
 void bind_flow(pybind11::module_& module);
+void bind_flow_painting(pybind11::module_& module);
 void bind_frame(pybind11::module_& module);
 
 }  // namespace stillwater

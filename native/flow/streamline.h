@@ -11,6 +11,11 @@ class SteadyFlow {
   /// `velocity`: pixels per frame, must outlive this. Throws BadInput where it is empty or not finite.
   explicit SteadyFlow(const Field& velocity);
 
+  /// Of a velocity that was found right before.
+  struct Checked {};
+  static constexpr Checked checked{};
+  SteadyFlow(const Field& velocity, Checked) : velocity_(velocity) {}
+
   cv::Vec2d at(double x, double y) const;
 
   /// Where the fluid that is at a place will be `frames` later (negative: where it was before). Classical Runge-Kutta

@@ -40,6 +40,10 @@ _HOMES = {
     "advect": "flow",
     "flow_map": "flow",
     "Live": "render.live",
+    "paint_flow": "flow_painting",
+    "propose_flow": "flow_painting",
+    "refine_flow": "flow_painting",
+    "streaks": "flow_painting",
 }
 
 __all__ = sorted(_HOMES)

@@ -1,5 +1,9 @@
 from .flow import advect as advect
 from .flow import flow_map as flow_map
+from .flow_painting import paint_flow as paint_flow
+from .flow_painting import propose_flow as propose_flow
+from .flow_painting import refine_flow as refine_flow
+from .flow_painting import streaks as streaks
 from .images import linear_to_srgb as linear_to_srgb
 from .images import read as read
 from .images import read_clip as read_clip
