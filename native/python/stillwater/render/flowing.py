@@ -94,4 +94,4 @@ class FlowTrack:
             digest = keys[0 if after == 0 else -1][1]
             return (digest, digest), 0.0
         (start, field), (end, following) = keys[after - 1], keys[after]
-        return (field, following), (frame - start) / (end - start)
+        return (field, field if frame == start else following), (frame - start) / (end - start)
