@@ -44,11 +44,10 @@ inline float age_of(int copy, float phase) {
 
 /// Weight of a copy at an age; they add up to 1 over all copies. `lives`: shares of the lengths of life at the place.
 inline float weight_of(int copy, float age, const std::array<float, flow_lives>& lives) {
-  const float old = age < 0 ? -age : age;
-  float weight = 0;
-  for (int life = 0, born_apart = flow_copies / 2; life < flow_lives; ++life, born_apart /= 2)
-    if (copy % born_apart == 0) weight += lives[life] * std::max(0.0f, 1 - static_cast<float>(2 << life) * old);
-  return weight;
+  const float old = std::abs(age), quarter = lives[2] * std::max(0.0f, 1 - 8 * old);
+  if (copy % 2 != 0) return quarter;
+  const float half = quarter + lives[1] * std::max(0.0f, 1 - 4 * old);
+  return copy % 4 != 0 ? half : half + lives[0] * std::max(0.0f, 1 - 2 * old);
 }
 
 /// The way at an age, from Flow::ways.

@@ -38,7 +38,8 @@ class FlowPaths {
   float phase(int row, int column) const { return phases_(row, column); }
   std::array<float, flow_lives> lives(int row, int column) const { return short_lives_ ? lives_at(row, column) : whole_lives; }
   bool short_lives() const { return short_lives_; }
-  bool moves(int row, int column) const { return moves_(row, column) != 0; }
+  /// 1 for each pixel of a row that some field moves, else 0.
+  const unsigned char* moving_row(int row) const { return moves_[row]; }
 
  private:
   static constexpr std::array<float, flow_lives> whole_lives{1, 0, 0};

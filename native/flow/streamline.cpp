@@ -13,7 +13,7 @@ constexpr double longest_turn = 0.1;
 // A way is cut into no more pieces than this, whatever the flow does.
 constexpr double most_steps = 1 << 20;
 
-double length(const cv::Vec2d& v) { return std::hypot(v[0], v[1]); }
+double length(const cv::Vec2d& v) { return std::sqrt(v.dot(v)); }
 
 }  // namespace
 

@@ -9,8 +9,6 @@
 namespace stillwater {
 namespace {
 
-using Four = float __attribute__((vector_size(16)));
-
 constexpr int knots_in_run = Run::longest / Streamlines::apart + 3;
 
 // A copy whose weight will be above 0 not further away than this is found too: between knots it counts.
@@ -20,10 +18,7 @@ bool any_way(const Flow& flow) {
   return std::any_of(flow.ways.begin(), flow.ways.end(), [](double way) { return way != 0; });
 }
 
-Four four_at(const Rgba& image, int row, int column) {
-  const cv::Vec4f& v = image(row, column);
-  return Four{v[0], v[1], v[2], v[3]};
-}
+Four four(const cv::Vec4f& v) { return Four{v[0], v[1], v[2], v[3]}; }
 
 // Between which knots the places of one run lie.
 class BetweenKnots {
@@ -48,7 +43,7 @@ class BetweenKnots {
   void read(const Rgba& knots, Four* out) const {
     Four line[knots_in_run] = {};
     for (int k = 0; k < columns_; ++k) {
-      const Four upper = four_at(knots, top_, first_ + k), lower = four_at(knots, bottom_, first_ + k);
+      const Four upper = four(knots(top_, first_ + k)), lower = four(knots(bottom_, first_ + k));
       line[k] = upper + down_ * (lower - upper);
     }
     line[columns_] = line[columns_ - 1];
@@ -146,69 +141,104 @@ const cv::Vec4f* FlowingLayer::draw(const Run& run, const unsigned char* needed,
   const cv::Vec4f* still = still_->draw(run, needed, room);
   if (!still || !mixed_) return still;
   const SampledRun at(plate_, nullptr, run);
-  const cv::Size pixels = flowing_.paths().pixels();
   std::array<unsigned char, Run::longest> moving;
-  bool any = false;
-  const int row = std::clamp(static_cast<int>(std::floor(at.y[0] + 0.5f)), 0, pixels.height - 1);
-  for (int i = 0; i < run.count; ++i) {
-    const int column = std::clamp(static_cast<int>(std::floor(at.x[i] + 0.5f)), 0, pixels.width - 1);
-    moving[i] = needed[i] && still[i][3] > 0 && flowing_.paths().moves(row, column);
-    any = any || moving[i];
-  }
-  if (!any) return still;
-  std::array<cv::Vec4f, Run::longest> mixed;
+  if (!find_moving(at, needed, still, run.count, moving.data())) return still;
+  std::array<Four, Run::longest> mixed;
   mix(at, moving.data(), run.count, mixed.data());
   for (int i = 0; i < run.count; ++i) {
     const float coverage = still[i][3];
-    if (moving[i]) room[i] = {mixed[i][0] * coverage, mixed[i][1] * coverage, mixed[i][2] * coverage, coverage};
-    else if (room != still) room[i] = still[i];
+    Four colour = four(still[i]);
+    if (moving[i]) colour = mixed[i] * coverage, colour[3] = coverage;
+    room[i] = {colour[0], colour[1], colour[2], colour[3]};
   }
   return room;
 }
 
-// Opaque colours where `moving` is not 0.
-void FlowingLayer::mix(const SampledRun& at, const unsigned char* moving, int count, cv::Vec4f* out) const {
-  const BetweenKnots between(at, count, flowing_.paths().knots());
-  Four states[Run::longest], rest[Run::longest], origins[Run::longest], sum[Run::longest] = {};
-  Four brightest[Run::longest];
-  between.read(states_, states);
-  between.read(rest_, rest);
-  std::fill_n(brightest, count, Four{1, 1, 1, 1});
-  float x[Run::longest] = {}, y[Run::longest] = {}, weights[Run::longest];
-  unsigned char seen[Run::longest];
-  std::array<cv::Vec4f, Run::longest> colours;
-  for (int pair = 0; pair < flow_copies / 2 && !origins_[pair].empty(); ++pair) {
-    bool read = false;
-    for (int side = 0; side < 2; ++side) {
-      const int copy = pair + side * flow_copies / 2;
-      bool any = false;
-      for (int i = 0; i < count; ++i) {
-        const std::array<float, flow_lives> lives{1 - states[i][2] - states[i][3], states[i][2], states[i][3]};
-        weights[i] = weight_of(copy, age_of(copy, states[i][0]), lives);
-        seen[i] = moving[i] && weights[i] > 0;
-        any = any || seen[i];
-      }
-      if (!any) continue;
-      if (!read) between.read(origins_[pair], origins);
-      read = true;
-      for (int i = 0; i < count; ++i) {
-        x[i] = at.x[i] + origins[i][2 * side];
-        y[i] = at.y[i] + origins[i][2 * side + 1];
-      }
-      flowing_.texture_.sample(x, y, seen, count, colours.data());
-      for (int i = 0; i < count; ++i) {
-        if (!seen[i]) continue;
-        const Four colour{colours[i][0], colours[i][1], colours[i][2], colours[i][3]};
-        sum[i] += weights[i] * colour;
-        brightest[i] = colour > brightest[i] ? colour : brightest[i];
-      }
+// Which pixels of a run are a mix of copies; false where none is.
+bool FlowingLayer::find_moving(const SampledRun& at, const unsigned char* needed, const cv::Vec4f* still, int count,
+                               unsigned char* moving) const {
+  const cv::Size pixels = flowing_.paths().pixels();
+  const auto nearest = [](float place, int size) { return std::clamp(static_cast<int>(place + 0.5f), 0, size - 1); };
+  const unsigned char* moves = flowing_.paths().moving_row(nearest(at.y[0], pixels.height));
+  unsigned char any = 0;
+  for (int i = 0; i < count; ++i) {
+    moving[i] = needed[i] & static_cast<unsigned char>(still[i][3] > 0) & moves[nearest(at.x[i], pixels.width)];
+    any |= moving[i];
+  }
+  return any != 0;
+}
+
+/// The copies of one run, mixed one after the other.
+struct FlowingLayer::Mixing {
+  const SampledRun& at;
+  const unsigned char* moving;
+  int count;
+  Four states[Run::longest], sum[Run::longest] = {}, brightest[Run::longest];
+  float phases[Run::longest], halves[Run::longest], quarters[Run::longest];
+  bool short_lives = false;
+
+  Mixing(const SampledRun& places, const unsigned char* wanted, int length) : at(places), moving(wanted), count(length) {}
+
+  void take_states() {
+    for (int i = 0; i < count; ++i) {
+      phases[i] = states[i][0], halves[i] = states[i][2], quarters[i] = states[i][3];
+      short_lives = short_lives || halves[i] + quarters[i] > 0;
+      brightest[i] = Four{1, 1, 1, 1};
     }
   }
+
+  // False where the copy is not seen.
+  bool weigh(int copy, float* weights, unsigned char* seen) const {
+    for (int i = 0; i < count; ++i)
+      weights[i] = weight_of(copy, age_of(copy, phases[i]), {1 - halves[i] - quarters[i], halves[i], quarters[i]});
+    unsigned char any = 0;
+    for (int i = 0; i < count; ++i) {
+      seen[i] = static_cast<unsigned char>(moving[i] != 0) & static_cast<unsigned char>(weights[i] > 0);
+      any |= seen[i];
+    }
+    return any != 0;
+  }
+
+  void add(const Source& texture, const Four* origins, int side, const float* weights, const unsigned char* seen) {
+    float x[Run::longest] = {}, y[Run::longest] = {};
+    for (int i = 0; i < count; ++i) {
+      x[i] = at.x[i] + origins[i][2 * side];
+      y[i] = at.y[i] + origins[i][2 * side + 1];
+    }
+    std::array<cv::Vec4f, Run::longest> colours;
+    texture.sample(x, y, seen, count, colours.data());
+    for (int i = 0; i < count; ++i) {
+      if (!seen[i]) continue;
+      const Four colour = four(colours[i]);
+      sum[i] += weights[i] * colour;
+      brightest[i] = colour > brightest[i] ? colour : brightest[i];
+    }
+  }
+};
+
+// Opaque colours where `moving` is not 0.
+void FlowingLayer::mix(const SampledRun& at, const unsigned char* moving, int count, Four* out) const {
+  const BetweenKnots between(at, count, flowing_.paths().knots());
+  Mixing mixing(at, moving, count);
+  between.read(states_, mixing.states);
+  mixing.take_states();
+  Four origins[Run::longest];
+  float weights[Run::longest];
+  unsigned char seen[Run::longest];
+  for (int pair = 0; pair < (mixing.short_lives ? flow_copies / 2 : 1); ++pair) {
+    bool read = false;
+    for (int side = 0; side < 2; ++side) {
+      if (!mixing.weigh(pair + side * flow_copies / 2, weights, seen)) continue;
+      if (!read) between.read(origins_[pair], origins);
+      read = true;
+      mixing.add(flowing_.texture_, origins, side, weights, seen);
+    }
+  }
+  Four rest[Run::longest];
+  between.read(rest_, rest);
   for (int i = 0; i < count; ++i) {
-    if (!moving[i]) continue;
-    const Four mixed = states[i][1] * sum[i] + rest[i];
-    const Four lit = mixed > Four{} ? mixed : Four{}, held = lit < brightest[i] ? lit : brightest[i];
-    out[i] = {held[0], held[1], held[2], held[3]};
+    const Four mixed = mixing.states[i][1] * mixing.sum[i] + rest[i], lit = mixed > Four{} ? mixed : Four{};
+    out[i] = lit < mixing.brightest[i] ? lit : mixing.brightest[i];
   }
 }
 

@@ -7,6 +7,8 @@
 
 namespace stillwater {
 
+using Four = float __attribute__((vector_size(16)));
+
 /// A layer that flows, at one moment. Its outline stands still; what does not move is the still layer's own pixels. Where
 /// copies are sampled, and what is left of their mix beside the finest band, is found on the knots of the streamlines
 /// and interpolated.
@@ -21,13 +23,15 @@ class FlowingLayer final : public LayerMotion {
   void flow(float* x, float* y, int count) const override;
 
  private:
-  struct Mixed;
+  struct Mixing;
 
+  bool find_moving(const SampledRun& at, const unsigned char* needed, const cv::Vec4f* still, int count,
+                   unsigned char* moving) const;
   void make_knots();
   void make_knot(int row, int column);
   void keep_contrast(int row, int column, const std::array<float, flow_copies>& weights,
                      const std::array<cv::Vec2f, flow_copies>& origins);
-  void mix(const SampledRun& at, const unsigned char* moving, int count, cv::Vec4f* out) const;
+  void mix(const SampledRun& at, const unsigned char* moving, int count, Four* out) const;
 
   const FlowingPlate& flowing_;
   const Plate& plate_;
