@@ -12,7 +12,7 @@ namespace {
 
 constexpr double stored_apart = 8;  // px, where the flow is fastest
 constexpr int fewest = 4, most = 64;
-constexpr double longest_step = 2;  // px: a streamline is smooth
+constexpr double longest_step = 8;  // px: what bends is cut finer in any case
 
 double fastest(const Field& velocity) {
   float square = 0;

@@ -11,6 +11,8 @@ namespace {
 
 constexpr int knots_in_run = Run::longest / Streamlines::apart + 3;
 
+constexpr float furthest = 1e9f;
+
 // A copy whose weight will be above 0 not further away than this is found too: between knots it counts.
 constexpr float soon = 0.05f;  // periods
 
@@ -173,7 +175,7 @@ struct FlowingLayer::Mixing {
   const SampledRun& at;
   const unsigned char* moving;
   int count;
-  Four states[Run::longest], sum[Run::longest] = {}, brightest[Run::longest];
+  Four states[Run::longest], sum[Run::longest] = {}, darkest[Run::longest], brightest[Run::longest];
   float phases[Run::longest], halves[Run::longest], quarters[Run::longest];
   bool short_lives = false;
 
@@ -183,7 +185,7 @@ struct FlowingLayer::Mixing {
     for (int i = 0; i < count; ++i) {
       phases[i] = states[i][0], halves[i] = states[i][2], quarters[i] = states[i][3];
       short_lives = short_lives || halves[i] + quarters[i] > 0;
-      brightest[i] = Four{1, 1, 1, 1};
+      darkest[i] = Four{} + furthest, brightest[i] = Four{} - furthest;
     }
   }
 
@@ -199,6 +201,12 @@ struct FlowingLayer::Mixing {
     return any != 0;
   }
 
+  // A mix within the colours of its copies: beyond all of them fire turns green, and smoke grey.
+  Four held(int i, const Four& mixed) const {
+    const Four low = mixed > darkest[i] ? mixed : darkest[i];
+    return low < brightest[i] ? low : brightest[i];
+  }
+
   void add(const Source& texture, const Four* origins, int side, const float* weights, const unsigned char* seen) {
     float x[Run::longest] = {}, y[Run::longest] = {};
     for (int i = 0; i < count; ++i) {
@@ -211,6 +219,7 @@ struct FlowingLayer::Mixing {
       if (!seen[i]) continue;
       const Four colour = four(colours[i]);
       sum[i] += weights[i] * colour;
+      darkest[i] = colour < darkest[i] ? colour : darkest[i];
       brightest[i] = colour > brightest[i] ? colour : brightest[i];
     }
   }
@@ -237,8 +246,7 @@ void FlowingLayer::mix(const SampledRun& at, const unsigned char* moving, int co
   Four rest[Run::longest];
   between.read(rest_, rest);
   for (int i = 0; i < count; ++i) {
-    const Four mixed = mixing.states[i][1] * mixing.sum[i] + rest[i], lit = mixed > Four{} ? mixed : Four{};
-    out[i] = lit < mixing.brightest[i] ? lit : mixing.brightest[i];
+    out[i] = mixing.held(i, mixing.states[i][1] * mixing.sum[i] + rest[i]);
   }
 }
 

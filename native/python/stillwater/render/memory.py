@@ -25,6 +25,9 @@ WRITTEN, WRITTEN_AT_ONCE = 30, 64 << 20  # what is written of them; bytes of it 
 TRIED_OUT = 128  # pixels
 CLEAR = 2  # pixels around a layer that was cut
 STRIP = 1.25  # an endless layer's period, of its side
+# Of a layer that flows, bytes a pixel of it: its texture, fields, streamlines and what is found on their knots; and while a
+# field is painted, of the whole picture.
+FIELD, TEXTURE, KNOTS, PAINTING = 8, 16, 24, 120
 TURNED = 1.8  # an endless layer that is being made ready, beside itself: on its canvas, and one period of it
 
 
@@ -92,7 +95,8 @@ def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
     canvas = RGBA * job.sources.size[0] * job.sources.size[1]
     cut, ready, at_work = 0.0, 0.0, canvas if shrunk < 1 else 0.0
-    for layer, box, endless in zip(job.recipe.layers, boxes, job.timeline.endless, strict=True):
+    layers = zip(job.recipe.layers, boxes, job.timeline.endless, job.timeline.flows, strict=True)
+    for layer, box, endless, flow in layers:
         cut += RGBA * _area(box)
         if not layer.visible:
             continue
@@ -100,6 +104,10 @@ def _rendering(job, boxes) -> float:
         height = STRIP * job.sources.size[1] if endless[1] else box[3]
         plate = RGBA * shrunk * width * height
         ready += plate
+        if flow is not None:
+            fields = len(flow.paintings)
+            ready += shrunk * _area(box) * (TEXTURE + (FIELD + KNOTS) * fields)
+            at_work = max(at_work, PAINTING * job.sources.size[0] * job.sources.size[1] + FIELD * fields * _area(box))
         if any(endless):
             at_work = max(at_work, TURNED * plate)
     if job.has_alpha:
