@@ -13,6 +13,13 @@ constexpr int knots_in_run = Run::longest / Streamlines::apart + 3;
 
 constexpr float furthest = 1e9f;
 
+// What holding a mix within its copies' colours takes from contrast, given back where copies differ; measured on textures
+// with a normal distribution.
+constexpr float given_back = 0.25f;
+
+// What a band's mix is multiplied by, which has this share of the variance left.
+float gain_of(float variance) { return (1 + given_back * (1 - variance)) / std::sqrt(variance); }
+
 // A copy whose weight will be above 0 not further away than this is found too: between knots it counts.
 constexpr float soon = 0.05f;  // periods
 
@@ -133,8 +140,8 @@ void FlowingLayer::keep_contrast(int row, int column, const std::array<float, fl
   }
   cv::Vec4f rest = means[bands - 1];
   for (int band = bands - 1; band > 0; --band)
-    rest = rest + (1 / std::sqrt(variances[band])) * (means[band - 1] - means[band]);
-  const float gain = 1 / std::sqrt(variances[0]);
+    rest = rest + gain_of(variances[band]) * (means[band - 1] - means[band]);
+  const float gain = gain_of(variances[0]);
   rest_(row, column) = rest - gain * means[0];
   states_(row, column)[1] = gain;
 }
