@@ -32,5 +32,5 @@ if [ "${STILLWATER_OTHER:-}" != folder ] && python="$(find_python)"; then
   exec env PYTHON="$python" STILLWATER_BUILD="$build/python-$other_python" bash tests/setup/blender.sh "$report"
 fi
 
-make_folder "$other_debian" "other Blender"
+make_folder "$other_debian" "other Blender" mount
 test_inside blender.sh
