@@ -54,16 +54,18 @@ Frame render(const FrameRenderer& renderer, const Moment& now, const Moment& aft
 using Endlesses = std::vector<std::pair<FloatArray, FloatArray>>;  // pixels and mean, of colours and of alpha
 
 Plates plates_of(const LayerImage& colour, const std::optional<LayerImage>& alpha, Size size, double scale,
-                 std::optional<Axes> drifting, const Endlesses& made) {
+                 std::optional<Axes> drifting, const Endlesses& made, const std::vector<FloatArray>& flow, double longest) {
   std::vector<EndlessPixels> before;
   for (const auto& [pixels, mean] : made)
     before.push_back({as_image<cv::Vec4f>(pixels, "endless"), as_image<cv::Vec4f>(mean, "endless")});
+  FlowFields fields{{}, longest};
+  for (const FloatArray& field : flow) fields.velocities.push_back(as_image<cv::Vec2f>(field, "flow"));
   const py::gil_scoped_release release;
   std::optional<Endless> endless;
   if (drifting) endless = Endless{drifting->first, drifting->second};
   return std::const_pointer_cast<LayerPlates>(
       make_plates(colour, alpha.value_or(LayerImage()), {size.first, size.second}, scale, endless,
-                  {before.empty() ? nullptr : &before[0], before.size() < 2 ? nullptr : &before[1]}));
+                  {before.empty() ? nullptr : &before[0], before.size() < 2 ? nullptr : &before[1]}, fields));
 }
 
 void render_for_screen(const FrameRenderer& renderer, ExactArray& out, const Moment& now,
@@ -106,7 +108,8 @@ void bind_frame(py::module_& module) {
       py::call_guard<py::gil_scoped_release>());
   py::class_<LayerPlates, Plates>(module, "LayerPlates", "A layer ready for any moment.");
   module.def("make_plates", &plates_of, py::arg("colour"), py::arg("alpha"), py::arg("size"), py::arg("scale"),
-             py::arg("drifting"), py::arg("endless") = Endlesses());
+             py::arg("drifting"), py::arg("endless") = Endlesses(), py::arg("flow") = std::vector<FloatArray>(),
+             py::arg("longest") = 0.0);
   module.def(
       "make_endless",
       [](const LayerImage& layer, Size size, double scale, Axes along, const Progress::Listener& progress) {

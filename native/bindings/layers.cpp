@@ -2,6 +2,7 @@
 #include "bindings/rooms.h"
 #include "layers/cyclic.h"
 #include "layers/displace.h"
+#include "layers/extend_colours.h"
 #include "layers/over.h"
 #include "layers/push_pull.h"
 
@@ -44,6 +45,9 @@ void bind_layers(py::module_& module) {
   py::class_<Source>(module, "Source").def(py::init(&source_of), py::arg("image"));
   module.def("displace_over", &displace_over_array, py::arg("image"), py::arg("map"), py::arg("back").noconvert());
   module.def("over", &over_arrays, py::arg("front"), py::arg("back"));
+  module.def("extend_colours",
+             [](const FloatArray& layer) { return as_array(extend_colours(as_image<cv::Vec4f>(layer, "layer"))); },
+             py::arg("layer"));
   module.def("push_pull", &push_pull_array, py::arg("known"));
   module.def("make_cyclic", &make_cyclic_array, py::arg("image"), py::arg("along_x"), py::arg("along_y"));
   module.def("displace", &displace_array, py::arg("image"), py::arg("map"), py::arg("wraps_x") = false,

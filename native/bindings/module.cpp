@@ -21,6 +21,7 @@ PYBIND11_MODULE(_stillwater, module) {
   stillwater::bind_inpaint(module);
   stillwater::bind_motion(module);
   stillwater::bind_water(module);
+  stillwater::bind_flow(module);
   stillwater::bind_flow_painting(module);
   stillwater::bind_appearance(module);
   stillwater::bind_frame(module);

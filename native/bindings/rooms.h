@@ -14,6 +14,7 @@ void bind_matting(pybind11::module_& module);
 void bind_inpaint(pybind11::module_& module);
 void bind_motion(pybind11::module_& module);
 void bind_water(pybind11::module_& module);
+void bind_flow(pybind11::module_& module);
 void bind_flow_painting(pybind11::module_& module);
 void bind_appearance(pybind11::module_& module);
 void bind_frame(pybind11::module_& module);

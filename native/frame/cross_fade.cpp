@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "frame/keep_variance.h"
 
 namespace stillwater {
 namespace {
@@ -42,7 +43,7 @@ class CrossFadedLayer final : public TravellingLayer {
       : TravellingLayer(plate, travel),
         fade_(fade),
         copies_(now),
-        gain_(variance_gain()),
+        gain_(contrast_gain()),
         bounds_(bounds(now.first.get()) | bounds(now.second.get())) {}
 
   bool at_rest() const override { return false; }
@@ -79,17 +80,16 @@ class CrossFadedLayer final : public TravellingLayer {
   cv::Vec4f lively(const cv::Vec4f& plain, const cv::Vec4f& mean) const {
     if (plain[3] <= 0 || mean[3] <= 0) return plain;
     const cv::Vec4f expected = mean * (plain[3] / mean[3]);
-    const cv::Vec4f colour = expected + gain_ * (plain - expected);
+    const cv::Vec4f colour = with_gain(plain, expected, gain_);
     return {colour[0], colour[1], colour[2], plain[3]};
   }
 
   // What differences from the mean are multiplied by, so that two copies, mixed, vary as much as one.
-  float variance_gain() const {
+  float contrast_gain() const {
     const Point &first = copies_.drifted, &second = copies_.second_drifted;
     const cv::Point apart(static_cast<int>(std::lround((second.x - first.x) * plate_.scale)),
                           static_cast<int>(std::lround((second.y - first.y) * plate_.scale)));
-    const double other = copies_.second_share, one = 1 - other, rho = fade_.likeness(plate_, apart);
-    return static_cast<float>(1 / std::sqrt(one * one + other * other + 2 * one * other * rho));
+    return static_cast<float>(variance_gain(copies_.second_share, fade_.likeness(plate_, apart)));
   }
 
   const CrossFade& fade_;

@@ -11,10 +11,8 @@
 namespace stillwater {
 
 /// Both copies of a layer that drifts in a loop, cross-faded with variance kept, so that contrast does not sink half
-/// way. M is the layer, blurred: what does not change where the copies differ; rho is how alike the layer is to itself
-/// at the distance of the copies. Of straight colours; coverage dissolves.
-///
-///     colour = M + (w1 (S1 - M1) + w2 (S2 - M2)) / sqrt(w1^2 + w2^2 + 2 w1 w2 rho),   M = w1 M1 + w2 M2
+/// way (keep_variance.h). M is the layer, blurred: what does not change where the copies differ; rho is measured at the
+/// distance of the copies. Of straight colours; coverage dissolves.
 class CrossFade {
  public:
   /// M of a layer with these pixels, on a coarse grid. `sigma`: of the blur, pixels (mean_sigma_of()).

@@ -66,6 +66,9 @@ void FrameRenderer::check(const std::vector<LayerSetup>& layers) const {
           plates->alpha.source.empty() == (picture_.has_alpha && !plates->colour.source.empty()) ||
           plates->drifting != drifting(layers, i))
         throw BadInput(place + ".plates: made for another picture, scale or way of drifting");
+    const bool flows = layers[i].plates && layers[i].plates->colour_flow;
+    if (std::holds_alternative<Flow>(layers[i].motion) && !flows && !box_of(layers[i]).empty())
+      throw BadInput(place + ".plates: made without a flow");
   }
 }
 
@@ -81,7 +84,7 @@ std::optional<Endless> FrameRenderer::drifting(const std::vector<LayerSetup>& la
   return std::nullopt;
 }
 
-FrameRenderer::LayerMotions FrameRenderer::motions_of(const std::vector<Placement>& now,
+FrameRenderer::LayerMotions FrameRenderer::motions_of(const FrameNumbers& now, const std::vector<Placement>& placed,
                                                       const std::vector<Travel>& travel, bool of_alpha) const {
   LayerMotions motions;
   for (size_t i = 0; i < layers_.size(); ++i) {
@@ -89,8 +92,14 @@ FrameRenderer::LayerMotions FrameRenderer::motions_of(const std::vector<Placemen
     const LayerPlates& plates = layers_[i].plates ? *layers_[i].plates : unseen;
     const Plate& plate = of_alpha ? plates.alpha : plates.colour;
     const CrossFade* fade = (of_alpha ? plates.alpha_fade : plates.colour_fade).get();
-    motions.push_back(fade && now[i].second_share > 0 ? fade->at(plate, now[i], travel[i])
-                                                      : displaced_layer(plate, now[i], travel[i]));
+    const FlowingPlate* flowing = (of_alpha ? plates.alpha_flow : plates.colour_flow).get();
+    if (const auto* flow = std::get_if<Flow>(&now.layers[i].motion); flow && flowing) {
+      check_flow(*flow, flowing->paths().fields());
+      motions.push_back(flowing->at(*flow));
+    } else {
+      motions.push_back(fade && placed[i].second_share > 0 ? fade->at(plate, placed[i], travel[i])
+                                                           : displaced_layer(plate, placed[i], travel[i]));
+    }
   }
   return motions;
 }
@@ -108,14 +117,14 @@ Frame FrameRenderer::render(const FrameNumbers& now, const FrameNumbers& after, 
   const std::vector<Placement> placed = motions_->at(now.moment, motion_numbers(now));
   std::vector<Travel> travel(layers_.size());
   if (wish.flow) travel = motions_->travel(placed, after.moment, motion_numbers(after));
-  const LayerMotions motions = motions_of(placed, travel, false);
+  const LayerMotions motions = motions_of(now, placed, travel, false);
   const std::vector<ComposedLayer> layers = composed(motions, now);
   Composition whole = compose(layers, size_, {wish.flow, wish.matte});
   Frame frame{whole.combined, whole.flow, whole.matte, {}};
   if (wish.layers)
     for (const ComposedLayer& layer : layers)
       frame.layers.push_back(layer.opacity > 0 ? compose_alone(layer, size_) : Rgba());
-  if (picture_.has_alpha) add_alpha(frame, motions_of(placed, travel, true), now);
+  if (picture_.has_alpha) add_alpha(frame, motions_of(now, placed, travel, true), now);
   return frame;
 }
 
@@ -136,8 +145,8 @@ void FrameRenderer::render_for_screen(const FrameNumbers& now, ScreenWish wish, 
   }
   const std::vector<Placement> placed = motions_->at(seen.moment, motion_numbers(seen));
   const std::vector<Travel> nowhere(layers_.size());
-  const LayerMotions motions = motions_of(placed, nowhere, false);
-  const LayerMotions of_alpha = picture_.has_alpha ? motions_of(placed, nowhere, true) : LayerMotions();
+  const LayerMotions motions = motions_of(seen, placed, nowhere, false);
+  const LayerMotions of_alpha = picture_.has_alpha ? motions_of(seen, placed, nowhere, true) : LayerMotions();
   const std::vector<ComposedLayer> layers = composed(motions, seen);
   const std::vector<ComposedLayer> alpha = picture_.has_alpha ? composed(of_alpha, seen) : layers;
   compose_runs(layers, size_, [&](const Run& run, cv::Vec4f* pixels) {

@@ -80,7 +80,7 @@ class FrameRenderer {
   void render_for_screen(const FrameNumbers& now, ScreenWish wish, float* rgba) const;
 
   /// Takes points of the still picture (picture pixels) to where they are at a moment as part of one layer; where two
-  /// copies are cross-faded, of the first. Throws BadInput for a layer that is not there.
+  /// copies are cross-faded, of the first. A flow leaves them where they are: its outline is still. Throws BadInput for a layer that is not there.
   void move(int layer, const FrameNumbers& now, float* x, float* y, int count) const;
 
   /// Width and height of the output.
@@ -96,7 +96,8 @@ class FrameRenderer {
   void check_layer(int layer) const;
   std::optional<Endless> drifting(const std::vector<LayerSetup>& layers, int layer) const;
   using LayerMotions = std::vector<std::unique_ptr<LayerMotion>>;
-  LayerMotions motions_of(const std::vector<Placement>& now, const std::vector<Travel>& travel, bool of_alpha) const;
+  LayerMotions motions_of(const FrameNumbers& now, const std::vector<Placement>& placed, const std::vector<Travel>& travel,
+                          bool of_alpha) const;
   std::vector<ComposedLayer> composed(const LayerMotions& motions, const FrameNumbers& now) const;
   void add_alpha(Frame& frame, const LayerMotions& motions, const FrameNumbers& now) const;
 

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "flow/flow_cycle.h"
 #include "layers/displacement.h"
 #include "motion/bob.h"
 #include "motion/drift.h"
@@ -14,8 +15,9 @@
 
 namespace stillwater {
 
-/// What moves one layer, with the numbers of one moment; monostate: nothing.
-using MotionNumbers = std::variant<std::monostate, Sway, Ripple, Bob, Drift>;
+/// What moves one layer, with the numbers of one moment; monostate: nothing. A Flow displaces nothing: frame/flowing_layer.h
+/// makes its colours.
+using MotionNumbers = std::variant<std::monostate, Sway, Ripple, Bob, Drift, Flow>;
 
 /// What is fixed about one layer's motion.
 struct MotionSetup {

@@ -6,7 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "core/check.h"
 #include "core/error.h"
+#include "core/parallel.h"
+#include "flow/streamline.h"
 #include "layers/cyclic.h"
 #include "layers/inpainting/cyclic_by_exemplars.h"
 
@@ -72,7 +75,7 @@ Plate as_plate(const Rgba& pixels, const cv::Rect& box, const cv::Rect& layer_bo
   return plate;
 }
 
-void check(const char* name, const LayerImage& layer, cv::Size picture) {
+void check_box(const char* name, const LayerImage& layer, cv::Size picture) {
   const cv::Rect whole(cv::Point(), picture);
   if ((layer.box & whole) != layer.box || layer.pixels.size() != layer.box.size())
     throw BadInput(std::string(name) + ": its box does not fit its pixels and the picture");
@@ -112,16 +115,41 @@ void check_made_before(const EndlessPixels& before, const cv::Rect& canvas, Endl
 
 EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double output_scale, Endless along,
                            Progress progress) {
-  check("layer", layer, picture);
+  check_box("layer", layer, picture);
   if (layer.box.empty()) return {};
   return endless_pixels(scaled_layer(layer, picture, output_scale), picture, output_scale, along, std::move(progress));
 }
 
+namespace {
+
+// Fields of a layer's box as they are in the pixels of its plate.
+std::vector<Field> scaled_fields(const std::vector<Field>& velocities, const Plate& plate) {
+  std::vector<Field> scaled;
+  for (const Field& velocity : velocities) {
+    check::not_empty("flow", velocity);
+    if (velocity.size() != plate.box.size()) throw BadInput("flow: a field that does not fit the layer's box");
+    const cv::Size size(plate.source.width(), plate.source.height());
+    if (plate.scale == 1) {
+      scaled.push_back(velocity.clone());
+      continue;
+    }
+    const SteadyFlow flow(velocity);
+    Field& field = scaled.emplace_back(size);
+    parallel_pixels(size, [&](int y, int x) {
+      const double picture_x = (x + plate.origin.x + 0.5) / plate.scale, picture_y = (y + plate.origin.y + 0.5) / plate.scale;
+      field(y, x) = plate.scale * flow.at(picture_x - plate.box.x - 0.5, picture_y - plate.box.y - 0.5);
+    });
+  }
+  return scaled;
+}
+
+}  // namespace
+
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
                                                double output_scale, std::optional<Endless> drifting,
-                                               MadeBefore before) {
-  check("colour", colour, picture);
-  check("alpha", alpha, picture);
+                                               MadeBefore before, const FlowFields& flow) {
+  check_box("colour", colour, picture);
+  check_box("alpha", alpha, picture);
   auto plates = std::make_shared<LayerPlates>();
   plates->box = colour.box;
   plates->picture = picture;
@@ -144,6 +172,11 @@ std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const L
   };
   fill(colour, before.colour, plates->colour, plates->colour_fade);
   fill(alpha, before.alpha, plates->alpha, plates->alpha_fade);
+  if (!flow.velocities.empty() && !colour.box.empty()) {
+    const auto paths = std::make_shared<const FlowPaths>(scaled_fields(flow.velocities, plates->colour), flow.longest);
+    plates->colour_flow = std::make_unique<FlowingPlate>(plates->colour, paths, true);
+    if (!alpha.box.empty()) plates->alpha_flow = std::make_unique<FlowingPlate>(plates->alpha, paths, false);
+  }
   return plates;
 }
 

@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/progress.h"
 #include "frame/cross_fade.h"
 #include "frame/displaced_layer.h"
+#include "frame/flowing_plate.h"
 #include "layers/layer_image.h"
 
 namespace stillwater {
@@ -38,6 +40,7 @@ struct LayerPlates {
   std::optional<Endless> drifting;  ///< of a layer that drifts, or follows one that does
   Plate colour, alpha;              ///< alpha: of the picture's own, as a grey picture; empty where it has none
   std::unique_ptr<const CrossFade> colour_fade, alpha_fade;  ///< of a layer that drifts; they belong to these plates
+  std::unique_ptr<const FlowingPlate> colour_flow, alpha_flow;  ///< of a layer that flows, likewise
 };
 
 /// What make_endless() gave for a layer that drifts, where that was called before.
@@ -46,10 +49,17 @@ struct MadeBefore {
   const EndlessPixels* alpha = nullptr;
 };
 
-/// Throws BadInput where a box does not fit its pixels or the picture, or what was made before not the layer.
+/// What moves a layer that flows.
+struct FlowFields {
+  std::vector<Field> velocities;  ///< of the layer's box at the picture's scale, px per frame; none: the layer does not flow
+  double longest = 0;             ///< longest way that its Flow ever has, frames at speed 1
+};
+
+/// Throws BadInput where a box does not fit its pixels or the picture, a field not the box, or what was made before not the
+/// layer.
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
                                                double output_scale, std::optional<Endless> drifting,
-                                               MadeBefore before = {});
+                                               MadeBefore before = {}, const FlowFields& flow = {});
 
 /// Length of one period of an endless layer's plate along x and y, in picture pixels.
 Point plate_period(cv::Size picture, double output_scale);

@@ -68,6 +68,7 @@ def peak_bytes(*arguments):
 
 WIDTH, HEIGHT = 1600, 1000
 SWAY = {"type": "sway", "armature": [[100, 900], [100, 100]]}
+FLOW = {"type": "flow", "strokes": [{"points": [[100, 100], [1500, 900]]}]}
 
 
 def stripes(x, y, layers):
@@ -92,6 +93,7 @@ def discs(x, y, layers):
         (discs, 12, SWAY, 1),
         (stripes, 2, {"type": "drift", "velocity": [3, 0]}, 1),
         (stripes, 3, {"type": "still"}, 2),
+        (stripes, 2, FLOW, 1),
     ],
 )
 def test_the_memory_is_within_a_fifth_of_the_peak(scene, tmp_path, command, labels, layers, motion, scale):

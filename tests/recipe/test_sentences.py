@@ -23,6 +23,7 @@ RIGHT = {
 }
 TREE, BOAT, CLOUD, SEA, SKY = (("layers", i) for i in range(5))
 MISSING = object()
+FLOW = {"type": "flow", "strokes": [{"points": [[1, 1], [9, 9]]}]}
 ANIMATED = '{"first": FRAME, "values": [one a frame]}'
 LINE = "a line from a point to itself is not a line with two different ends"
 
@@ -122,15 +123,23 @@ SENTENCES = [
     ((*TREE, "matte"), {"lasso": [[0, 0], [9, 0]]}, "layers[0].matte.lasso: 2 entries are not 3 or more"),
     ((*TREE, "fill"), {"method": "exemplar", "source": {"file": 3}}, "layers[0].fill.source.file: 3 is not a text"),
     (("output", "name"), "a/b", 'output.name: "a/b" is not a file name'),
-    # what has no engine yet
+    # flows
     ((*SKY, "motion"), {"type": "flow"},
-     'layers[4].motion.type: "flow" has no engine yet (these have: still, sway, ripple, bob, drift)'),
+     "layers[4].motion.strokes: none; where does the layer flow? (at least one is needed)"),
+    ((*SKY, "motion"), {"type": "flow", "strokes": [{"points": [[1, 1]], "kind": "speed"}]},
+     'layers[4].motion.strokes: none says where the layer flows (kind "orientation" or "both", alpha above 0)'),
+    ((*SKY, "motion"), {"type": "flow", "strokes": [{"points": [[1, 1], [9, 9]], "frame": 1}, {"points": [[1, 1], [9, 9]], "alpha": 0, "frame": 7}]},
+     'layers[4].motion.strokes: none at frame 7 says where the layer flows (kind "orientation" or "both", alpha above 0)'),
+    ((*SKY, "motion"), {**FLOW, "period": 0}, "layers[4].motion.period: 0 is not above 0 (frames)"),
+    # what has no engine yet
+    ((*SKY, "motion"), {**FLOW, "outline": {"moving": True}},
+     "layers[4].motion.outline.moving: true has no engine yet (a flow's outline stands still: false)"),
     ((*SKY, "motion"), {"type": "example", "clip": "c.mp4"},
-     'layers[4].motion.type: "example" has no engine yet (these have: still, sway, ripple, bob, drift)'),
+     'layers[4].motion.type: "example" has no engine yet (these have: still, sway, ripple, bob, drift, flow)'),
     ((*SKY, "motion"), {"type": "library", "library": "l"},
-     'layers[4].motion.type: "library" has no engine yet (these have: still, sway, ripple, bob, drift)'),
+     'layers[4].motion.type: "library" has no engine yet (these have: still, sway, ripple, bob, drift, flow)'),
     ((*SKY, "motion"), {"type": "keyframes", "keys": [{"frame": 1, "file": "k.png"}], "guide": {"strokes": []}},
-     'layers[4].motion.type: "keyframes" has no engine yet (these have: still, sway, ripple, bob, drift)'),
+     'layers[4].motion.type: "keyframes" has no engine yet (these have: still, sway, ripple, bob, drift, flow)'),
 ]
 
 
@@ -147,6 +156,18 @@ def test_sentence(way, value, sentence):
     with pytest.raises(RecipeError) as raised:
         parse(json.dumps(wrong(way, value)))
     assert str(raised.value) == sentence
+
+
+def test_a_flow_neither_follows_nor_is_followed():
+    recipe = wrong((*CLOUD, "motion"), FLOW)
+    recipe["layers"][2]["follows"] = {"layer": "tree"}
+    recipe["layers"][0]["follows"] = {"layer": "cloud"}
+    with pytest.raises(RecipeError) as raised:
+        parse(recipe)
+    assert list(raised.value.problems[:2]) == [
+        'layers[0].follows.layer: "cloud" is not a layer that can be followed (it flows: its outline stands still)',
+        "layers[2].follows: a layer that flows follows no other (its outline stands still)",
+    ]
 
 
 @pytest.mark.parametrize(

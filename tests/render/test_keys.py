@@ -17,6 +17,7 @@ from stillwater.render.resolve import Timeline
 FRAMES = range(1, 13)
 ALL, NONE = set(FRAMES), set()
 BOAT, REFLECTION, TREE, SEA, CLOUDS = (f"layers.{i}" for i in range(5))
+BROOK = "layers.6"
 
 
 SCRIBBLES = {"foreground": [{"points": [[8, 20]]}], "background": [{"points": [[30, 5]]}]}
@@ -123,12 +124,20 @@ TABLE = [
     (f"{BOAT}.motion.amount", 2, ALL),
     (f"{CLOUDS}.motion.velocity", [0.7, 0.3], ALL),
     (f"{CLOUDS}.motion", {"type": "drift", "wind": 0.3}, ALL),
+    (f"{BROOK}.motion.strokes", [{"points": [[9, 9], [1, 1]]}], ALL),
+    (f"{BROOK}.motion.refine", {"width": 13}, ALL),
+    (f"{BROOK}.motion.speed", 1.1, ALL),
+    (f"{BROOK}.motion.period", 50, ALL),
+    (f"{BROOK}.motion.freeze", [{"points": [[1, 1]]}], ALL),
+    (f"{BROOK}.motion.outline", {"persistence": 0.5}, NONE),  # it stands still, whatever it would do
     # keys: only where they change, and in the frame before, whose flow looks ahead
     ("wind.gusts", keyed(6, 0.4, 0.4, 0.9), {7, 8, 9, 10, 11, 12}),
     ("wind.speed", keyed(1, *[8] * 8, 9), {8, 9, 10, 11, 12}),
     (f"{TREE}.motion.amount", keyed(5, 3, 4, 3), {5, 6}),
     (f"{TREE}.opacity", keyed(4, 1, 0, 1), {4, 5}),
     (f"{CLOUDS}.motion.velocity", keyed(1, [0.7, 0.2], [0.7, 0.2], [0, 0], [0.7, 0.2]), ALL - {1}),
+    (f"{BROOK}.motion.strokes.0.frame", 5, ALL),
+    (f"{BROOK}.motion.period", 1e6, ALL),
 ]
 
 
@@ -140,7 +149,7 @@ def wide(recipe):
     recipe["layers"].insert(5 - 1, pond)
     recipe["layers"][4], recipe["layers"][5] = recipe["layers"][5], recipe["layers"][4]
     recipe["layers"][4]["matte"] = {"labels": "labels.png", "value": 0}
-    recipe["layers"].append({"name": "wall"})
+    recipe["layers"].append({"name": "brook", "motion": {"type": "flow", "strokes": [{"points": [[1, 1], [9, 9]]}]}})
     return recipe
 
 
@@ -187,6 +196,23 @@ def test_the_table_names_every_field():
     assert wanted - named == set()
     fills = {name for kind in (ExemplarFill, FileFill, NoFill) for name in kind.__struct_fields__}
     assert {f"fill.{name}" for name in fills} - named == set()
+
+
+def test_a_flow_reads_its_period_of_the_speed_and_no_more(wide):
+    """A speed that changes later than half a period, and the two frames ahead, after the last frame changes nothing."""
+    wide["layers"][6]["motion"]["period"] = 4
+    steady = keyed(1, *[1.0] * 40)
+    wide["layers"][6]["motion"]["speed"] = steady
+    assert changed(wide, f"{BROOK}.motion.speed", keyed(1, *[1.0] * 20, 0.5)) == NONE
+    assert changed(wide, f"{BROOK}.motion.speed", keyed(1, *[1.0] * 8, *[0.5] * 20)) == {6, 7, 8, 9, 10, 11, 12}
+
+
+def test_strokes_keyed_in_time_change_the_frames_between_them(wide):
+    def strokes(end):
+        return [{"points": [[1, 1], [9, 9]], "frame": 4}, {"points": [[1, 1], [9, end]], "frame": 8}]
+
+    wide["layers"][6]["motion"]["strokes"] = strokes(3)
+    assert changed(wide, f"{BROOK}.motion.strokes", strokes(5)) == ALL - {1, 2, 3}
 
 
 def test_the_contents_of_files_count_and_not_their_names(wide):

@@ -39,6 +39,8 @@ _HOMES = {
     "bob": "motion",
     "ripple": "motion",
     "wave_heights": "motion",
+    "advect": "flow",
+    "flow_map": "flow",
     "Live": "render.live",
     "paint_flow": "flow_painting",
     "propose_flow": "flow_painting",

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from .engines import without_engine
+from .fluids import Flow
 from .keyframes import Keyframes
 from .mattes import ExemplarFill
 from .picture import Layer, Recipe
@@ -54,6 +55,7 @@ def _layer(recipe: Recipe, i: int, layer: Layer) -> Iterator[str]:
         yield f"{place}.fill.patch: {layer.fill.patch} is not odd (px)"
     if layer.follows is not None:
         yield from _known_layer(recipe, f"{place}.follows.layer", layer.follows.layer)
+        yield from _no_flow_in_it(recipe, place, layer)
     match layer.motion:
         case Sway(armature=armature) if _distance(*armature) <= SHORTEST:
             yield f"{place}.motion.armature: a line from a point to itself is not a line with two different ends"
@@ -65,6 +67,27 @@ def _layer(recipe: Recipe, i: int, layer: Layer) -> Iterator[str]:
             yield from _known_layer(recipe, f"{place}.motion.water", water, Ripple)
         case Drift(velocity=velocity, wind=wind) if velocity is not None and wind != 0.5:
             yield f"{place}.motion: velocity and wind are both given (only one of them can hold)"
+        case Flow() as flow:
+            yield from _directions(flow, f"{place}.motion.strokes")
+
+
+def _no_flow_in_it(recipe: Recipe, place: str, layer: Layer) -> Iterator[str]:
+    if isinstance(layer.motion, Flow):
+        yield f"{place}.follows: a layer that flows follows no other (its outline stands still)"
+    led = next((other for other in recipe.layers if other.name == layer.follows.layer), None)
+    if led is not None and isinstance(led.motion, Flow):
+        yield f'{place}.follows.layer: "{led.name}" is not a layer that can be followed (it flows: its outline stands still)'
+
+
+def _directions(flow: Flow, place: str) -> Iterator[str]:
+    """At every frame some stroke must say where the flow goes."""
+    if not flow.strokes:
+        yield f"{place}: none; where does the layer flow? (at least one is needed)"
+        return
+    for frame, strokes in flow.drawn():
+        if not any(stroke.kind != "speed" and stroke.alpha > 0 for stroke in strokes):
+            at = "" if frame is None else f" at frame {frame}"
+            yield f'{place}: none{at} says where the layer flows (kind "orientation" or "both", alpha above 0)'
 
 
 def _known_layer(recipe: Recipe, place: str, name: str, kind: type | None = None) -> Iterator[str]:

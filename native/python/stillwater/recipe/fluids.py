@@ -28,6 +28,15 @@ class Flow(Part, tag="flow"):
     freeze: choice(list[Stroke], "what stays where it is") = []
     outline: Outline | None = None
 
+    def drawn(self) -> list[tuple[int | None, list[FlowStroke]]]:
+        """The strokes that hold together, by the frame from which they do: those without a frame always, those with one
+        until the next such frame, and before the first. None: no stroke has one."""
+        frames = sorted({stroke.frame for stroke in self.strokes if stroke.frame is not None})
+        return [
+            (frame, [stroke for stroke in self.strokes if stroke.frame is None or stroke.frame == frame])
+            for frame in frames or [None]
+        ]
+
 
 class _Look(Part):
     """What example and library share: the look of a fluid that comes from clips."""

@@ -25,6 +25,7 @@ ENGINES = {
     "ripple": 3,
     "bob": 1,
     "drift": 3,
+    "flow": 1,
 }
 
 

@@ -14,7 +14,7 @@ from .. import _stillwater as engine
 from ..recipe import parse
 from . import preview
 from .cache import FOLDER, Cache, Prepared
-from .endless import Canvas, endless_key, ways_of
+from .endless import Canvas, keys_of, ways_of
 from .prepare import check_view
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
@@ -83,7 +83,7 @@ class Live:
         small = preview.reduced(document.recipe, layers.facts["scale"])
         check_view(small, layers.facts["colour"])
         timeline = Timeline(small)
-        plates = self._plates_for(key, layers, ways_of(small, timeline.endless), self._plates if same else {})
+        plates = self._plates_for(key, layers, ways_of(timeline), self._plates if same else {})
         if plates is None:
             return False
         size, has_alpha = tuple(layers.facts["size"]), layers.facts["has_alpha"]
@@ -192,9 +192,9 @@ class Live:
     def _plates_for(self, key: str, layers: Prepared, ways: list, made: dict) -> dict | None:
         """Plates for each way, those that are there already taken over; None where a part is not prepared."""
         missing = [way for way in ways if way not in made]
-        endless = {way: self._cache.find(endless_key(key, way)) for way in missing if way[1] is not None}
-        if None in endless.values():
+        ready = {way: [self._cache.find(each) for each in keys_of(key, way)] for way in missing}
+        if any(None in found for found in ready.values()):
             return None
         canvas = Canvas(key, layers, tuple(layers.facts["size"]))
-        new = {way: canvas.plates(way, endless.get(way)) for way in missing}
+        new = {way: canvas.plates(way, ready[way]) for way in missing}
         return {way: made.get(way) or new[way] for way in ways}

@@ -15,7 +15,7 @@ from .. import _stillwater as engine
 from ..recipe import Document, Recipe
 from .cache import FOLDER, LIMIT, Cache, Prepared
 from .claim import claim_frames
-from .endless import Canvas, make_endless, ways_of
+from .endless import Canvas, make_ready
 from .errors import Failed, Refused
 from .events import Done, Event, Frame, Preparing, Started, Warn
 from .keys import FrameKeys
@@ -91,16 +91,15 @@ class Job:
         self.images = None
 
     def ready(self, claim) -> Generator[Event, None, Renderer]:
-        """The renderer, when the layers are there and those that drift endless."""
+        """The renderer, when the layers are there and those that drift or flow endless."""
         fresh = self.stack is None
         yield from self.prepare(claim)
         canvas = Canvas(self.sources.key, self.stack, self.sources.size, self.scale)
-        ways = ways_of(self.recipe, self.timeline.endless)
-        endless = yield from make_endless(canvas, self.recipe, ways, self.cache, canvas.key, claim.beat)
+        ready = yield from make_ready(canvas, self.timeline, self.cache, canvas.key, claim.beat)
         if fresh:
             yield Preparing(1, "done")
         self.stack = None  # the renderer has a copy
-        return Renderer(self.timeline, canvas, endless)
+        return Renderer(self.timeline, canvas, ready)
 
     def path(self, frame: int) -> Path:
         return self.folder / f"{self.recipe.output.name}_{frame:04d}.exr"

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe.mattes import FileFill, LabelMatte
+from .endless import keys_of, ways_of
 from .fills import Exemplar
 
 PROCESS = 170e6  # Python and the engine's libraries
@@ -25,6 +26,9 @@ WRITTEN, WRITTEN_AT_ONCE = 30, 64 << 20  # what is written of them; bytes of it 
 TRIED_OUT = 128  # pixels
 CLEAR = 2  # pixels around a layer that was cut
 STRIP = 1.25  # an endless layer's period, of its side
+# Of a layer that flows, bytes a pixel of it: its texture, fields, streamlines and what is found on their knots; and while a
+# field is painted, of the whole picture.
+FIELD, TEXTURE, KNOTS, PAINTING = 8, 16, 24, 120
 TURNED = 1.8  # an endless layer that is being made ready, beside itself: on its canvas, and one period of it
 
 
@@ -92,7 +96,9 @@ def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
     canvas = RGBA * job.sources.size[0] * job.sources.size[1]
     cut, ready, at_work = 0.0, 0.0, canvas if shrunk < 1 else 0.0
-    for layer, box, endless in zip(job.recipe.layers, boxes, job.timeline.endless, strict=True):
+    ways = ways_of(job.timeline)
+    layers = zip(job.recipe.layers, boxes, job.timeline.endless, job.timeline.flows, ways, strict=True)
+    for layer, box, endless, flow, way in layers:
         cut += RGBA * _area(box)
         if not layer.visible:
             continue
@@ -100,6 +106,11 @@ def _rendering(job, boxes) -> float:
         height = STRIP * job.sources.size[1] if endless[1] else box[3]
         plate = RGBA * shrunk * width * height
         ready += plate
+        if flow is not None:
+            fields = len(flow.paintings)
+            ready += shrunk * _area(box) * (TEXTURE + (FIELD + KNOTS) * fields)
+            painting = 0 if _painted(job, way) else PAINTING * job.sources.size[0] * job.sources.size[1]
+            at_work = max(at_work, painting + FIELD * fields * _area(box))
         if any(endless):
             at_work = max(at_work, TURNED * plate)
     if job.has_alpha:
@@ -107,6 +118,11 @@ def _rendering(job, boxes) -> float:
     own = RGBA * sum(layer.visible for layer in job.recipe.layers) if job.recipe.output.layers else 0
     pixels = job.size[0] * job.size[1]
     return ready + max(cut + at_work, pixels * (FRAME + own) + min(pixels * (WRITTEN + own), WRITTEN_AT_ONCE))
+
+
+def _painted(job, way) -> bool:
+    """Whether all fields of a layer are in the cache."""
+    return all(job.cache.find(key) is not None for key in keys_of(job.sources.key, way, job.scale))
 
 
 def _area(box) -> int:

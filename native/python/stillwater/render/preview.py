@@ -1,6 +1,6 @@
 """The layers of a recipe at the size of a screen: a preparation, so that whoever shows frames makes none.
 
-`prepare` makes it, as slowly as it must; whoever knows `key_of`, and endless.py's `endless_key`, finds it, and reads no
+`prepare` makes it, as slowly as it must; whoever knows `key_of`, and endless.py's `keys_of`, finds it, and reads no
 file but the cache's.
 """
 
@@ -11,10 +11,11 @@ from msgspec.structs import replace
 
 from .. import _stillwater as engine
 from ..recipe import Document, Recipe
+from ..recipe.fluids import Flow
 from ..recipe.parts import Keys
 from ..recipe.stochastic import Bob, Drift, Sway
 from .cache import Cache, Prepared
-from .endless import Canvas, make_endless, parts_of, ways_of
+from .endless import Canvas, make_ready, parts_of
 from .errors import Failed
 from .events import Event, Preparing, Ready
 from .keys import ENGINES, hashed, stack_key
@@ -54,9 +55,8 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
                 small = _reduced(stack, sources.size, longest, still_there)
                 cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
     if (small := cache.find(key)) is not None:
-        ways = ways_of(document.recipe, Timeline(document.recipe).endless)
-        canvas = Canvas(key, small, tuple(small.facts["size"]))
-        yield from make_endless(canvas, document.recipe, ways, cache, sources.key, beat)
+        timeline = Timeline(reduced(document.recipe, small.facts["scale"]))
+        yield from make_ready(Canvas(key, small, tuple(small.facts["size"])), timeline, cache, sources.key, beat)
     cache.keep_digests()
     if cache.trouble:
         raise Failed(cache.trouble)
@@ -119,7 +119,17 @@ def _reduced_motion(motion, scale: float):
             return replace(motion, velocity=replace(keys, values=[_scaled(value, scale) for value in keys.values]))
         case Drift():
             return replace(motion, velocity=_scaled(motion.velocity, scale))
+        case Flow():
+            strokes = [replace(_reduced_stroke(stroke, scale), speed=stroke.speed * scale) for stroke in motion.strokes]
+            refine = replace(motion.refine, width=motion.refine.width * scale)
+            freeze = [_reduced_stroke(stroke, scale) for stroke in motion.freeze]
+            return replace(motion, strokes=strokes, refine=refine, freeze=freeze)
     return motion
+
+
+def _reduced_stroke(stroke, scale: float):
+    points = [[x * scale, y * scale, *pressure] for x, y, *pressure in stroke.points]
+    return replace(stroke, points=points, width=stroke.width * scale)
 
 
 def _scaled(pair: tuple, scale: float) -> tuple:

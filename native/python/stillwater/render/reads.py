@@ -10,6 +10,7 @@ from pathlib import Path
 import msgspec
 
 from .. import _stillwater as engine
+from ..recipe.fluids import Flow
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
 from .keys import fill_facts, hashed, matte_facts, needed_layers
 from .resolve import Timeline
@@ -38,14 +39,14 @@ class Reads:
         self._has_time = any(isinstance(motion, Ripple | Sway) for motion in motions)
         self._is_blown = any(isinstance(motion, Drift) and motion.velocity is None for motion in motions)
         seeds = [recipe.wind.seed, *(motion.seed for motion in motions if isinstance(motion, Ripple | Sway))]
-        drifts_in_loop = recipe.loop and any(isinstance(motion, Drift) for motion in motions)
+        goes_round = recipe.loop and any(isinstance(motion, Drift | Flow) for motion in motions)
         self._fixed = {
             "engines": fixed["engines"],
             "picture": _digest([digests[recipe.picture], recipe.colour_space, fixed["size"]]),
             "output": _digest([fixed[name] for name in ("scale", "depth", "compression", "names")]),
             "timing": _digest([
                 recipe.fps if self._has_time else None,
-                recipe.loop and (self._has_time or drifts_in_loop) and recipe.frames,
+                recipe.loop and (self._has_time or goes_round) and recipe.frames,
             ]),
             "seed": _digest(recipe.seed if self._has_time and None in seeds else None),
             "view": _digest(fixed["view"]),

@@ -6,6 +6,7 @@ from .. import _stillwater as engine
 from ..recipe.stochastic import Bob, Ripple, Still, Sway
 from .cache import Prepared
 from .endless import Canvas, Way, ways_of
+from .flowing import FlowNow, FlowTrack
 from .resolve import DriftNow, MomentNow, Timeline
 
 _KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: engine.Drift}
@@ -14,10 +15,10 @@ _KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: e
 class Renderer:
     """Frames of one recipe at one scale, in any order."""
 
-    def __init__(self, timeline: Timeline, canvas: Canvas, endless: dict[Way, Prepared]):
-        """`endless`: what Canvas.make() gave, for each way of a layer that drifts."""
+    def __init__(self, timeline: Timeline, canvas: Canvas, ready: dict[Way, list[Prepared]]):
+        """`ready`: what make_ready() gave."""
         self._timeline, self._layers_too = timeline, timeline.recipe.output.layers
-        plates = [canvas.plates(way, endless.get(way)) for way in ways_of(timeline.recipe, timeline.endless)]
+        plates = [canvas.plates(way, ready[way]) for way in ways_of(timeline)]
         has_alpha = canvas.layers.facts["has_alpha"]
         self._renderer = frame_renderer(timeline, plates, canvas.size, canvas.scale, has_alpha=has_alpha)
 
@@ -37,14 +38,16 @@ def frame_renderer(timeline: Timeline, images: list, size: tuple[int, int], scal
     layers = [
         engine.Layer(
             image,
-            _motion(now.motion),
+            _motion(now.motion, flow),
             water=place[layer.motion.water] if isinstance(layer.motion, Bob) else -1,
             follows=place[layer.follows.layer] if layer.follows else -1,
             mirror=bool(layer.follows and layer.follows.mirror),
             visible=layer.visible,
             endless=endless,
         )
-        for image, layer, now, endless in zip(images, recipe.layers, start.layers, timeline.endless, strict=True)
+        for image, layer, now, endless, flow in zip(
+            images, recipe.layers, start.layers, timeline.endless, timeline.flows, strict=True
+        )
     ]
     view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
     return engine.FrameRenderer(size, scale, view, _moment(start.moment).wind, layers, **alpha)
@@ -53,16 +56,22 @@ def frame_renderer(timeline: Timeline, images: list, size: tuple[int, int], scal
 def numbers(timeline: Timeline, frame: int) -> tuple:
     """What the engine's renderer is told of one frame: its moment, and a state for each layer."""
     now = timeline.at(frame)
-    return _moment(now.moment), [engine.LayerState(layer.opacity, _motion(layer.motion)) for layer in now.layers]
+    layers = zip(now.layers, timeline.flows, strict=True)
+    return _moment(now.moment), [engine.LayerState(layer.opacity, _motion(layer.motion, flow)) for layer, flow in layers]
 
 
 def _moment(now: MomentNow):
     return engine.Moment(**{**_fields(now), "wind": engine.Wind(**_fields(now.wind))})
 
 
-def _motion(motion):
+def _motion(motion, flow: FlowTrack | None):
     if isinstance(motion, Still):
         return None
+    if isinstance(motion, FlowNow):
+        field, following = map(list(flow.paintings).index, motion.fields)
+        return engine.Flow(
+            cycle=motion.cycle, ways=motion.ways, step=motion.step, field=field, next_field=following, next_share=motion.share
+        )
     fields = _fields(motion)
     fields.pop("water", None)  # which layer, not a number of the motion: engine.Layer has it
     return _KINDS[type(motion)](**fields)

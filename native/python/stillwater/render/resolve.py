@@ -10,9 +10,11 @@ import msgspec
 
 from ..recipe import Recipe
 from ..recipe.animation import Loop, Track, combine, ends_differ
+from ..recipe.fluids import Flow
 from ..recipe.parts import Keys
 from ..recipe.picture import Layer
 from ..recipe.stochastic import Bob, Drift, Ripple, Still, Sway
+from .flowing import FlowNow, FlowTrack
 
 
 class WindNow(msgspec.Struct, frozen=True):
@@ -48,7 +50,7 @@ class LayerNow(msgspec.Struct, frozen=True):
     """A layer at a frame; its motion is the recipe's, with plain numbers and its seed in place."""
 
     opacity: float
-    motion: Still | Sway | Ripple | Bob | DriftNow
+    motion: Still | Sway | Ripple | Bob | DriftNow | FlowNow
 
 
 class Now(msgspec.Struct, frozen=True):
@@ -70,7 +72,8 @@ class Timeline:
         self._away = combine(lambda v, a: v * math.sin(math.radians(a)), self._speed, self._direction)
         self._wind_seed = seed_of(recipe, "wind") if wind.seed is None else wind.seed
         self._opacities = [self._track(layer.opacity) for layer in recipe.layers]
-        self._motions = [self._motion(layer) for layer in recipe.layers]
+        self.flows = [FlowTrack(layer.motion, self.loop) if isinstance(layer.motion, Flow) else None for layer in recipe.layers]
+        self._motions = [flow.at if flow else self._motion(layer) for layer, flow in zip(recipe.layers, self.flows, strict=True)]
         self.endless = [self._endless(layer) for layer in recipe.layers]
 
     def at(self, frame: int) -> Now:
