@@ -67,6 +67,8 @@ def _motion(picture, layer, drawn: set[str]) -> list[str]:
             return horizon(picture.view, drawn)
         case "bob":
             return _bob(picture, motion.bob, drawn)
+        case "flow" if "strokes" not in drawn:
+            return ["Press Flow and draw the way that it flows, or Propose Flow"]
     return []
 
 

@@ -6,12 +6,13 @@ no place for is refused, never dropped.
 
 from collections.abc import Callable
 
+from .flow import drawn_of
 from .numbers import kept
 
 Locate = Callable[[str], str]  # a path as the recipe has it -> as Blender keeps it
 SetCurve = Callable[[str, int, int, list], None]  # path, index, first frame, a value for each frame
 WIDEST = 2**31 - 1  # Blender's whole numbers
-MOTIONS = ("still", "sway", "ripple", "bob", "drift")
+MOTIONS = ("still", "sway", "ripple", "bob", "drift", "flow")
 FORMS = ("file", "labels", "scribbles", "lasso", "trimap")
 
 
@@ -127,6 +128,8 @@ def strokes_of(part: dict) -> dict[str, list]:
     fill = part["fill"]
     found = {**_drawn(part["matte"], ""), **_drawn(fill.get("source"), "source_")}
     touched, usual = fill.get("touch_up") or [], _usual_touch_up(fill.get("touch_up"))
+    if part["motion"]["type"] == "flow":
+        found |= drawn_of(part["motion"])
     found["touch_up"] = [{"stroke": each["stroke"]} for each in touched] if usual else touched
     return {key: strokes for key, strokes in found.items() if strokes}
 
@@ -148,7 +151,7 @@ def _motion(motion, part: dict, writer: _Writer) -> None:
     if motion.type == "still":
         return
     group = getattr(motion, motion.type)
-    writer.fields(group, part, but=("type", "armature", "waterline"))
+    writer.fields(group, part, but=("type", "armature", "waterline", "strokes", "refine", "freeze", "outline"))
     match motion.type:
         case "sway":
             group.armature_root, group.armature_tip = part["armature"]
@@ -157,3 +160,15 @@ def _motion(motion, part: dict, writer: _Writer) -> None:
                 group.waterline.add().place = place
         case "drift":
             group.use_velocity = part["velocity"] is not None
+        case "flow":
+            _flow(group, part)
+
+
+def _flow(flow, part: dict) -> None:
+    """The next stroke goes on as the last one of the recipe."""
+    flow.refine_width, flow.refine_amount = part["refine"]["width"], part["refine"]["amount"]
+    if part["outline"] is not None:
+        flow.outline_moving, flow.outline_persistence = part["outline"]["moving"], part["outline"]["persistence"]
+    if part["strokes"]:
+        last = part["strokes"][-1]
+        flow.stroke_speed, flow.stroke_local, flow.stroke_alpha = last["speed"], last["local"], last["alpha"]

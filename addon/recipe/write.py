@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .animation import Animation
+from .flow import strokes_of_flow
 from .numbers import over_time, plain, plain_all
 
 Locate = Callable[[str], str]  # a path as Blender keeps it -> as the recipe has it
@@ -154,4 +155,21 @@ def _motion(layer, animation: Animation, drawn: Drawn) -> dict:
         case "drift":
             way = "velocity" if motion.drift.use_velocity else "wind"
             return {"type": "drift", way: _value(motion.drift, way, animation)}
+        case "flow":
+            return _flow(layer, animation, drawn)
     return {"type": "still"}
+
+
+def _flow(layer, animation: Animation, drawn: Drawn) -> dict:
+    flow = layer.motion.flow
+    usual = {"speed": plain(flow.stroke_speed), "local": flow.stroke_local, "alpha": plain(flow.stroke_alpha)}
+    outline = {"moving": True, "persistence": plain(flow.outline_persistence)} if flow.outline_moving else None
+    return {
+        "type": "flow",
+        "strokes": strokes_of_flow(lambda key: drawn(layer.id, key), usual),
+        "refine": {"width": plain(flow.refine_width), "amount": plain(flow.refine_amount)},
+        "speed": _value(flow, "speed", animation),
+        "period": plain(flow.period),
+        **_given("freeze", drawn(layer.id, "freeze")),
+        **_given("outline", outline),
+    }
