@@ -111,15 +111,23 @@ def _along(flow: np.ndarray, taken: np.ndarray, place: tuple[float, float], way:
     height, width = taken.shape
     points, here = [place], np.array(place)
     for _ in range(int(REACH * max(height, width) / STEP / 2)):
-        velocity = flow[int(here[1]), int(here[0])]
-        length = float(np.hypot(*velocity))
-        if length == 0:
-            break
-        here = here + way * STEP * velocity / length
-        if not (0 <= here[0] < width and 0 <= here[1] < height) or taken[int(here[1]), int(here[0])]:
+        middle = here + way * STEP / 2 * _direction(flow, here)  # by the midpoint
+        step = way * STEP * _direction(flow, middle)
+        here = here + step
+        inside = 0 <= here[0] < width and 0 <= here[1] < height
+        if not step.any() or not inside or taken[int(here[1]), int(here[0])]:
             break
         points.append(tuple(here))
     return np.array(points)
+
+
+def _direction(flow: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """The unit vector of the flow in the pixel of a place; 0 where it is still, or outside."""
+    column, row = int(np.floor(place[0])), int(np.floor(place[1]))
+    if not (0 <= row < flow.shape[0] and 0 <= column < flow.shape[1]):
+        return np.zeros(2)
+    velocity = flow[row, column].astype(float)
+    return velocity / (np.hypot(*velocity) or 1.0)
 
 
 def _take(taken: np.ndarray, line: np.ndarray, radius: float) -> None:
