@@ -46,6 +46,15 @@ def version() -> str:
     return _engine.__version__ if _engine else ""
 
 
+def has_motion(kind: str) -> bool:
+    """Whether the engine moves layers so; without an engine, whether every version does. Asked before load(), too."""
+    try:
+        from stillwater.recipe.engines import MOTIONS
+    except ImportError:
+        return kind != "example"
+    return kind in {motion.__struct_config__.tag for motion in MOTIONS}
+
+
 def read_recipe(path: str) -> dict:
     """A checked recipe with every default filled in. Throws ValueError with the engine's sentences, OSError."""
     if _engine is None:

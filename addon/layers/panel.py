@@ -124,6 +124,7 @@ def _draw_drift(layout, drift, drawn: set[str]) -> None:
 
 
 DRAWN = {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift, "flow": panel_flow.draw}
+DRAWN["example"] = panel_flow.draw_example
 NUMBERS = {
     "file": ("file", "channel"), "labels": ("labels", "value"), "trimap": ("trimap", "method"),
     "scribbles": ("method",), "lasso": ("feather", "snap", "method"),

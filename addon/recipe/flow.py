@@ -37,7 +37,7 @@ def drawn_of(motion: dict) -> dict[str, list]:
         found[key] = [
             {**stroke, "frame": frame} for frame in frames for stroke in strokes if stroke["frame"] in (None, frame)
         ]
-    return {**found, "freeze": motion["freeze"]}
+    return {**found, "freeze": motion.get("freeze", [])}
 
 
 def holding(strokes: list[dict], frame: int) -> list[dict]:

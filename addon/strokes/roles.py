@@ -106,6 +106,9 @@ ROLES = (
 )
 
 
+FLUIDS = ("flow", "example")  # what flows is said by the same strokes
+
+
 def by_key(key: str) -> Role:
     return next(role for role in ROLES if role.key == key)
 
@@ -133,7 +136,7 @@ def is_of_layer(role: Role) -> bool:
 def has(layer, role: Role) -> bool:
     """Whether strokes of this role say something of a layer as it is."""
     if not role.of:
-        return layer.motion.type == role.motion
+        return layer.motion.type == role.motion or (role.brushed and layer.motion.type in FLUIDS)
     what, _, form = role.of.partition(".")
     if what == "matte":
         return layer.matte.form == form
