@@ -16,10 +16,12 @@ from . import cutting, flow, flow_field, shapes
 from .outline import outline
 
 DASH = 0.006  # of the picture's longer side
+LETTERS = 13  # px on the screen, of what is told
 LEGEND, MARGIN = 0.16, 0.02  # of the picture's shorter side
 STEPS = 8  # of a march, each second
 
 problem = ""  # why nothing is drawn
+_words = ""
 
 _handles: list = []
 _outlines: dict[tuple, object] = {}  # of the last layer that was asked for
@@ -45,8 +47,8 @@ def end() -> None:
 
 def draw() -> None:
     """One redraw of one viewport. What goes wrong is a sentence in the Overlays popover."""
-    global problem
-    context = bpy.context
+    global problem, _words
+    context, _words = bpy.context, ""
     picture = context.scene.stillwater.active()
     if picture is None or picture.plane is None or not context.space_data.overlay.show_overlays:
         return
@@ -55,6 +57,7 @@ def draw() -> None:
             _lay_over(shown, tuple(picture.picture_size), pixels_to_world(picture))
         if (sight := flow.of(context.scene, picture)) is not None:
             _lay_flow(context, picture, sight)
+            _words = flow.sentence(sight, flow.layer_of(context.scene, picture))
         lines = of(context.scene, picture)
         if lines:
             _paint(lines, pixels_to_world(picture), gpu.state.viewport_get()[2:])
@@ -143,7 +146,7 @@ def _made(name: str, subject: shapes.Subject, stage, step: int | None):
 
 
 def _lay_flow(context, picture, sight: flow.Sight) -> None:
-    """Streaks, or colours and their legend in the lower left corner; with a sentence where it is only proposed."""
+    """Streaks, or colours and their legend in the lower left corner."""
     overlay, size, matrix = context.scene.stillwater_overlay, tuple(picture.picture_size), pixels_to_world(picture)
     pixels = flow.pixels_of(sight, overlay.flow_colors)
     _lay_texture(_texture(pixels), [(0, 0), (size[0], 0), size, (0, size[1])], matrix)
@@ -155,23 +158,18 @@ def _lay_flow(context, picture, sight: flow.Sight) -> None:
 
 
 def draw_words() -> None:
-    """What is told of a proposed flow, in the viewport's own pixels."""
-    context = bpy.context
-    picture = context.scene.stillwater.active()
-    if picture is None or picture.plane is None or not context.space_data.overlay.show_overlays:
+    """What is told of what draw() has shown, in the viewport's own pixels."""
+    if not _words:
         return
-    layer, sight = flow.layer_of(context.scene, picture), flow.of(context.scene, picture)
-    words = flow.sentence(sight, layer) if sight is not None else ""
-    if words:
-        scale = context.preferences.system.ui_scale
-        blf.size(0, 13 * scale)
-        width, _ = blf.dimensions(0, words)
-        blf.enable(0, blf.SHADOW)
-        blf.shadow(0, 5, 0, 0, 0, 0.9)
-        blf.color(0, 1, 1, 1, 1)
-        blf.position(0, max(10, (context.region.width - width) / 2), 40 * scale, 0)
-        blf.draw(0, words)
-        blf.disable(0, blf.SHADOW)
+    region, scale = bpy.context.region, bpy.context.preferences.system.ui_scale
+    blf.size(0, LETTERS * scale)
+    width, _ = blf.dimensions(0, _words)
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 5, 0, 0, 0, 0.9)
+    blf.color(0, 1, 1, 1, 1)
+    blf.position(0, max(LETTERS, (region.width - width) / 2), 3 * LETTERS * scale, 0)
+    blf.draw(0, _words)
+    blf.disable(0, blf.SHADOW)
 
 
 def _texture(pixels):

@@ -3,6 +3,7 @@
 The field is made anew when a stroke is; the streaks go on by a timer. All of it is of a sketch's size.
 """
 
+import json
 import time
 from dataclasses import dataclass
 
@@ -53,9 +54,10 @@ def layer_of(scene, picture):
         layer = names.layer_by_id(picture, drawing.layer_id) if drawing.picture_id == picture.id else None
         return layer if layer is not None and roles.by_key(drawing.role).motion == "flow" else None
     active = picture.layers[picture.active_layer] if picture.active_layer < len(picture.layers) else None
-    flows = active is not None and active.motion.type == "flow" and active.visible
+    if active is None or active.motion.type not in roles.FLUIDS or not active.visible:
+        return None
     playing = any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
-    return active if flows and not playing and not _directed(scene, picture, active) else None
+    return None if playing or _directed(scene, picture, active) else active
 
 
 def of(scene, picture) -> Sight | None:
@@ -69,7 +71,7 @@ def of(scene, picture) -> Sight | None:
         return None
     if draw_mode.pen_is_down() and _sight is not None and _sight.key[:2] == (picture.id, layer.id):
         return _sight
-    key = (picture.id, layer.id, stage.reads, stage.taken, scene.frame_current, layer.motion.flow.proposal)
+    key = (picture.id, layer.id, *_facts(scene, layer, stage))
     if key == _failed:
         return None
     if _sight is None or _sight.key != key:
@@ -81,6 +83,17 @@ def of(scene, picture) -> Sight | None:
     if not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=1 / STEPS)
     return _sight
+
+
+def _facts(scene, layer, stage) -> tuple:
+    """All that the sight of a layer's flow follows from: its strokes at this frame, its matte, what is known of that."""
+    said = next((each for each in stage.read["layers"] if each["name"] == layer.name), {})
+    motion = _motion_in(stage.read, layer.name)
+    drawn = flow_field.reduced(motion, 1, scene.frame_current) if motion is not None else None
+    known = stage.live is not None and layer.name in stage.live.layers
+    sketches = stage.sketch.number if stage.sketch is not None else 0
+    outside = [drawn, said.get("matte"), said.get("feather"), stage.read.get("picture"), stage.read.get("colour_space")]
+    return json.dumps(outside), known, stage.share is None, sketches, layer.motion.flow.proposal
 
 
 def sketched(picture, layer, stage) -> tuple[np.ndarray, float, np.ndarray | None]:
@@ -148,7 +161,7 @@ def _seen(scene, picture, layer, stage, key: tuple) -> Sight:
 
 def _motion_in(recipe: dict, name: str) -> dict | None:
     motion = next((layer["motion"] for layer in recipe["layers"] if layer["name"] == name), {})
-    return motion if motion.get("type") == "flow" else None
+    return motion if motion.get("type") in roles.FLUIDS else None
 
 
 def _directed(scene, picture, layer) -> bool:

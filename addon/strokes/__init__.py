@@ -25,6 +25,7 @@ CLASSES = [*operators.CLASSES, *panel.CLASSES]
 
 copy_roles = gp_layers.copy  # (picture, from_id, to_id): a duplicated layer gets strokes of its own
 remove_roles = gp_layers.remove  # (picture, layer_id): before a layer goes
+FLUIDS = roles.FLUIDS  # the motions that flow
 ready = draw_mode.holder_of  # (context, picture): its object for strokes, made where there is none, and shown
 scale_speeds = brush.scale_speeds  # (picture, factor)
 lay_down = lay.down  # (scene, picture, layer_id, strokes by the keys of their roles, as the recipe has them)

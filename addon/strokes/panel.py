@@ -25,7 +25,7 @@ class _Strokes(sidebar.OfPicture):
             _draw_role(context, column, picture, layer if roles.is_of_layer(role) else None, role)
         if context.mode == "EDIT_GREASE_PENCIL":
             layout.operator_menu_enum("stillwater.change_role", "role")
-            if layer is not None and layer.motion.type == "flow":
+            if layer is not None and layer.motion.type in roles.FLUIDS:
                 layout.operator("stillwater.set_flow")
 
 

@@ -329,6 +329,16 @@ def test_an_example_goes_to_the_recipe_and_back(extension, picture, river):
     assert msgspec.convert(made, Example | Flow) == msgspec.convert(WHOLE, Example | Flow)
 
 
+def test_strokes_that_are_cloned_are_refused_not_dropped():
+    read = room("recipe.read")
+    motion = {**WHOLE, "transfer": {"strokes": [{"source": [[1, 1]], "target": [[2, 2]]}]}}
+    layer = {"matte": None, "fill": {}, "motion": motion}
+    recipe = {"picture": "p.png", "seed": 1, "wind": {"seed": None}, "layers": [layer]}
+    with pytest.raises(read.NoPlace, match=r"layers\[0\].motion.transfer.strokes: can't be opened in Blender yet"):
+        read.refuse(recipe)
+    read.refuse({**recipe, "layers": [{**layer, "motion": WHOLE}]})
+
+
 def test_it_is_shown_where_the_engine_has_it(extension, picture, river):
     has = "example" in {kind.__struct_config__.tag for kind in MOTIONS}
     assert extension.engine.has_motion("example") == has and extension.engine.has_motion("flow")
@@ -428,6 +438,9 @@ def test_the_flow_is_seen_while_it_is_drawn(extension, scene, live):
     drawing.role, drawing.picture_id, drawing.layer_id = "flow", live.id, live.layers[0].id
     sight = overlay.of(scene, live)
     assert sight is not None and not sight.proposed and overlay.sentence(sight, live.layers[0]) == ""
+    scene.frame_set(6)
+    live.wind.speed = 3  # neither says anything of the flow: from frame 4 on the same strokes hold
+    extension.play.show.scene(scene)
     assert overlay.of(scene, live) is sight and bpy.app.timers.is_registered(overlay.go_on)
     streaks, colours = overlay.pixels_of(sight, False), overlay.pixels_of(sight, True)
     assert streaks.shape == colours.shape and streaks.shape[2] == 4 and np.isfinite(streaks).all()
