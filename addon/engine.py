@@ -46,6 +46,15 @@ def version() -> str:
     return _engine.__version__ if _engine else ""
 
 
+def has_motion(kind: str) -> bool:
+    """Whether the engine moves layers so; without an engine, whether every version does. Asked before load(), too."""
+    try:
+        from stillwater.recipe.engines import MOTIONS
+    except ImportError:
+        return kind != "example"
+    return kind in {motion.__struct_config__.tag for motion in MOTIONS}
+
+
 def read_recipe(path: str) -> dict:
     """A checked recipe with every default filled in. Throws ValueError with the engine's sentences, OSError."""
     if _engine is None:
@@ -149,6 +158,49 @@ def live():
     if _engine is None:
         raise ValueError(_problem)
     return _engine.Live()
+
+
+def picture_pixels(path: Path, colour_space: str):
+    """The picture in a file, height x width x 4, display-referred, straight alpha. Throws ValueError, OSError."""
+    if _engine is None:
+        raise ValueError(_problem)
+    return _engine.read(path, colour_space)
+
+
+def painted_flow(strokes: list[dict], freeze: list[dict], refine: dict, picture, bound):
+    """The flow that strokes say over a small picture, height x width x 2, px/frame; all in the picture's pixels.
+
+    `refine`: width and amount; `bound`: the matte, or None. Throws ValueError with the engine's sentence.
+    """
+    size = picture.shape[1], picture.shape[0]
+    painted = _engine.paint_flow(strokes, size, bound=bound, freeze=_frozen(freeze, size))
+    return _engine.refine_flow(painted, picture, **refine)
+
+
+def proposed_flow(kind: str, freeze: list[dict], picture, bound):
+    """The flow that a small picture proposes itself, as painted_flow(). Throws ValueError."""
+    size = picture.shape[1], picture.shape[0]
+    proposed = _engine.propose_flow(picture, kind, bound=bound, freeze=_frozen(freeze, size))
+    return proposed.orientation * proposed.speed[..., None]
+
+
+def _frozen(strokes: list[dict], size: tuple[int, int]):
+    """How still each pixel is held by strokes; None where there are none."""
+    from stillwater import _stillwater
+    import numpy as np
+
+    masks = []
+    for i, stroke in enumerate(strokes):
+        points = [[*point, 1.0][:3] for point in stroke["points"]]
+        masks.append(_stillwater.drawn(size, _stillwater.Stroke(points, stroke["width"]), f"freeze[{i}]"))
+    return np.maximum.reduce(masks) if masks else None
+
+
+def streaks(flow, strength: float):
+    """Streaks along a flow; its .at(phase) is height x width x 4, premultiplied. Throws ValueError."""
+    from stillwater import _stillwater
+
+    return _stillwater.Streaks(flow, strength=strength)
 
 
 def python_problem(python: str) -> str:

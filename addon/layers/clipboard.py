@@ -15,7 +15,7 @@ from .selection import OfLayers, OfPicture, chosen
 
 VERSION = 1
 FILES = ("matte.file", "matte.labels", "matte.trimap", "fill.file")  # the paths that a layer holds
-FILES += ("fill.source.file", "fill.source.labels", "fill.source.trimap")
+FILES += ("fill.source.file", "fill.source.labels", "fill.source.trimap", "motion.example.clip")
 
 
 def place() -> Path:

@@ -67,6 +67,11 @@ def _motion(picture, layer, drawn: set[str]) -> list[str]:
             return horizon(picture.view, drawn)
         case "bob":
             return _bob(picture, motion.bob, drawn)
+        case "flow" if "strokes" not in drawn:
+            return ["Press Flow and draw the way that it flows, or Propose Flow"]
+        case "example":
+            clip = [] if motion.example.clip else ["Choose the clip whose fluid it looks like"]
+            return clip + ([] if "strokes" in drawn else ["Press Flow and draw the way that it flows, or Propose Flow"])
     return []
 
 

@@ -38,7 +38,7 @@ class STILLWATER_OT_add_layer(OfMotion, bpy.types.Operator):
         return {"FINISHED"}
 
 
-NAMES = {"sway": "Tree", "ripple": "Water", "bob": "Boat", "drift": "Clouds"}
+NAMES = {"sway": "Tree", "ripple": "Water", "bob": "Boat", "drift": "Clouds", "flow": "River", "example": "River"}
 
 
 def new_layer(picture, motion: str, preset_file: str = ""):

@@ -4,7 +4,7 @@ from bpy.app.translations import pgettext_iface as iface_
 
 from .. import strokes
 from ..ui import sidebar
-from . import missing, selection
+from . import missing, panel_flow, selection
 from .presets import STILLWATER_PT_motion_presets
 
 
@@ -76,9 +76,7 @@ def _draw_layer(layout, layer, drawn: set[str]) -> None:
     layout.prop(layer.motion, "type")
     if layer.motion.numbers() is not None:
         STILLWATER_PT_motion_presets.draw_button(layout, "Presets")
-        {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift}[layer.motion.type](
-            layout, layer.motion.numbers(), drawn
-        )
+        DRAWN[layer.motion.type](layout, layer.motion.numbers(), drawn)
     _draw_matte(layout, layer)
     _draw_fill(layout, layer)
     _draw_rest(layout, layer)
@@ -125,6 +123,8 @@ def _draw_drift(layout, drift, drawn: set[str]) -> None:
     sidebar.draw(layout, drift, "velocity" if drift.use_velocity else "wind")
 
 
+DRAWN = {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift, "flow": panel_flow.draw}
+DRAWN["example"] = panel_flow.draw_example
 NUMBERS = {
     "file": ("file", "channel"), "labels": ("labels", "value"), "trimap": ("trimap", "method"),
     "scribbles": ("method",), "lasso": ("feather", "snap", "method"),

@@ -20,7 +20,7 @@ from ..properties import motions
 from ..recipe.numbers import kept, plain
 
 SHIPPED = Path(__file__).resolve().parent  # holds presets/stillwater/KIND
-KINDS = ("sway", "ripple", "bob", "drift", "wind")
+KINDS = (*(kind for kind in motions.ICONS if kind != "still"), "wind")
 APART = {*motions.PLACES, "direction"}  # belongs to one picture
 
 

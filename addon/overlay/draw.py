@@ -2,6 +2,7 @@
 
 import time
 
+import blf
 import bpy
 import gpu
 from bpy.app.translations import pgettext_iface as iface_
@@ -11,29 +12,32 @@ from ..play import show
 from ..properties import names
 from ..properties.plane import pixels_to_world
 from ..strokes import roles
-from . import cutting, shapes
+from . import cutting, flow, flow_field, shapes
 from .outline import outline
 
 DASH = 0.006  # of the picture's longer side
+LETTERS = 13  # px on the screen, of what is told
+LEGEND, MARGIN = 0.16, 0.02  # of the picture's shorter side
 STEPS = 8  # of a march, each second
 
 problem = ""  # why nothing is drawn
+_words = ""
 
-_handle = None
+_handles: list = []
 _outlines: dict[tuple, object] = {}  # of the last layer that was asked for
 _veils: dict[tuple, object] = {}  # a texture, of the last one
 _drawn: tuple[tuple, list] = ((), [])  # what was made of the last subject
 
 
 def begin() -> None:
-    global _handle
-    _handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+    for function, place in ((draw, "POST_VIEW"), (draw_words, "POST_PIXEL")):
+        _handles.append(bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", place))
 
 
 def end() -> None:
-    global _handle, _drawn
-    bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
-    _handle = None
+    global _drawn
+    while _handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
     _outlines.clear()
     _veils.clear()
     _drawn = ((), [])
@@ -43,14 +47,17 @@ def end() -> None:
 
 def draw() -> None:
     """One redraw of one viewport. What goes wrong is a sentence in the Overlays popover."""
-    global problem
-    context = bpy.context
+    global problem, _words
+    context, _words = bpy.context, ""
     picture = context.scene.stillwater.active()
     if picture is None or picture.plane is None or not context.space_data.overlay.show_overlays:
         return
     try:
         if (shown := veil_of(context.scene, picture)) is not None:
             _lay_over(shown, tuple(picture.picture_size), pixels_to_world(picture))
+        if (sight := flow.of(context.scene, picture)) is not None:
+            _lay_flow(context, picture, sight)
+            _words = flow.sentence(sight, flow.layer_of(context.scene, picture))
         lines = of(context.scene, picture)
         if lines:
             _paint(lines, pixels_to_world(picture), gpu.state.viewport_get()[2:])
@@ -116,7 +123,7 @@ def march() -> float | None:
 
 def _lines_of(overlay) -> list[str]:
     """The switches that are of lines."""
-    return [name for name in type(overlay).__annotations__ if name not in ("tint", "checker")]
+    return [name for name in type(overlay).__annotations__ if name not in ("tint", "checker", "flow", "flow_colors")]
 
 
 def _sketched(stage) -> int:
@@ -138,25 +145,60 @@ def _made(name: str, subject: shapes.Subject, stage, step: int | None):
     return shapes.marching(_outlines[key], cut.scale, DASH * max(subject.size), step / STEPS)
 
 
+def _lay_flow(context, picture, sight: flow.Sight) -> None:
+    """Streaks, or colours and their legend in the lower left corner."""
+    overlay, size, matrix = context.scene.stillwater_overlay, tuple(picture.picture_size), pixels_to_world(picture)
+    pixels = flow.pixels_of(sight, overlay.flow_colors)
+    _lay_texture(_texture(pixels), [(0, 0), (size[0], 0), size, (0, size[1])], matrix)
+    if overlay.flow_colors:
+        side, edge = LEGEND * min(size), MARGIN * min(size)
+        left, top = edge, size[1] - edge - side
+        corners = [(left, top), (left + side, top), (left + side, top + side), (left, top + side)]
+        _lay_texture(_texture(flow_field.wheel()), corners, matrix)
+
+
+def draw_words() -> None:
+    """What is told of what draw() has shown, in the viewport's own pixels."""
+    if not _words:
+        return
+    region, scale = bpy.context.region, bpy.context.preferences.system.ui_scale
+    blf.size(0, LETTERS * scale)
+    width, _ = blf.dimensions(0, _words)
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 5, 0, 0, 0, 0.9)
+    blf.color(0, 1, 1, 1, 1)
+    blf.position(0, max(LETTERS, (region.width - width) / 2), 3 * LETTERS * scale, 0)
+    blf.draw(0, _words)
+    blf.disable(0, blf.SHADOW)
+
+
+def _texture(pixels):
+    buffer = gpu.types.Buffer("FLOAT", pixels.size, pixels.ravel())
+    return gpu.types.GPUTexture(pixels.shape[1::-1], format="RGBA16F", data=buffer)
+
+
 def _lay_over(veil: tuple, size: tuple[int, int], matrix) -> None:
     key, make = veil
     if key not in _veils:
         pixels = make()
         _veils.clear()
-        buffer = gpu.types.Buffer("FLOAT", pixels.size, pixels.ravel())
-        _veils[key] = gpu.types.GPUTexture(pixels.shape[1::-1], format="RGBA16F", data=buffer)
+        _veils[key] = _texture(pixels)
     width, height = size
-    corners = [(0, 0, 0), (width, 0, 0), (width, height, 0), (0, height, 0)]
+    _lay_texture(_veils[key], [(0, 0), (width, 0), (width, height), (0, height)], matrix)
+
+
+def _lay_texture(texture, corners: list[tuple[float, float]], matrix) -> None:
+    """Over four places of the picture: upper left, and on clockwise."""
     shader = gpu.shader.from_builtin("IMAGE")
     batch = batch_for_shader(
-        shader, "TRI_FAN", {"pos": corners, "texCoord": [(x / width, y / height) for x, y, _ in corners]}
+        shader, "TRI_FAN", {"pos": [(x, y, 0) for x, y in corners], "texCoord": [(0, 0), (1, 0), (1, 1), (0, 1)]}
     )
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
     with gpu.matrix.push_pop():
         gpu.matrix.multiply_matrix(matrix)
         shader.bind()
-        shader.uniform_sampler("image", _veils[key])
+        shader.uniform_sampler("image", texture)
         batch.draw(shader)
     gpu.state.blend_set("NONE")
 

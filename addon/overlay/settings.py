@@ -4,6 +4,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from . import draw as drawing
+from . import flow
 
 
 class STILLWATER_PG_overlay(bpy.types.PropertyGroup):
@@ -37,6 +38,14 @@ class STILLWATER_PG_overlay(bpy.types.PropertyGroup):
         name="Matte Checker", description="While a matte is drawn, a checkerboard instead of all that is not part of its layer",
         default=False, options=set(),
     )
+    flow: BoolProperty(
+        name="Flow", description="While a flow is drawn, streaks that run along it; faint ones where the picture proposes it",
+        default=True, options=set(),
+    )
+    flow_colors: BoolProperty(
+        name="Flow Colors", description="While a flow is drawn, its direction as a color instead of streaks; the wheel tells which",
+        default=False, options=set(),
+    )
 
 
 def draw(self, context):
@@ -50,8 +59,9 @@ def draw(self, context):
     grid = column.grid_flow(columns=2, even_columns=True, align=True)
     for name in STILLWATER_PG_overlay.__annotations__:
         grid.prop(overlay, name)
-    if drawing.problem:
-        column.label(text=drawing.problem, icon="ERROR")
+    for problem in (drawing.problem, flow.problem):
+        if problem:
+            column.label(text=problem, icon="ERROR")
 
 
 CLASSES = [STILLWATER_PG_overlay]

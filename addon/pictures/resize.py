@@ -3,7 +3,7 @@
 Places keep their place over the picture, lengths and speeds their share of it; keyed ones too.
 """
 
-from .. import versions
+from .. import strokes, versions
 from ..properties.picture import frame_size
 from ..properties.walk import every
 from . import place
@@ -24,6 +24,7 @@ def resize(scene, picture, new: tuple[int, int]) -> bool:
         settings.use_size(scene, picture)
     place.stretch_strokes(picture, old)
     factors = new[0] / old[0], new[1] / old[1]
+    strokes.scale_speeds(picture, (factors[0] * factors[1]) ** 0.5)
     for group, kind in every(picture):
         if _is_measured(group, kind):
             _scale(scene, group, kind.identifier, factors)

@@ -183,16 +183,18 @@ class Stage:
 
 
 def preparation(recipe: dict) -> list:
-    """What of a recipe must be prepared: the rest are numbers. What drifts is made endless."""
+    """What of a recipe must be prepared: the rest are numbers. What drifts or flows is made endless."""
     layers = [
-        [*(layer.get(name) for name in ("matte", "fill", "feather", "follows")), _drifts(layer)]
+        [*(layer.get(name) for name in ("matte", "fill", "feather", "follows")), _endless(layer)]
         for layer in recipe["layers"]
     ]
     return [recipe.get("picture"), recipe["colour_space"], layers]
 
 
-def _drifts(layer: dict) -> bool:
-    return layer.get("motion", {}).get("type") == "drift"
+def _endless(layer: dict):
+    """What of its motion must be prepared: a flow's field and, where it is keyed, how far it carries."""
+    motion = layer.get("motion", {})
+    return motion if motion.get("type") == "flow" else motion.get("type") == "drift"
 
 
 def moves(recipe: dict) -> bool:

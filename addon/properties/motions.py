@@ -12,12 +12,15 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import names
+from .. import engine
+from . import fluids, names
 
 ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE"}
-ICONS["drift"] = "OUTLINER_OB_VOLUME"
+ICONS |= {"drift": "OUTLINER_OB_VOLUME", "flow": "MOD_FLUIDSIM", "example": "FILE_MOVIE"}
+ICONS = {kind: icon for kind, icon in ICONS.items() if engine.has_motion(kind)}  # what has no engine yet is not shown
 # Of a motion, what belongs to one place of one picture; the rest is its look, which presets hold.
 PLACES = {"armature_root", "armature_tip", "waterline", "water_id", "water", "seed"}
+PLACES |= {"clip", "use_clip_frames", "clip_first", "clip_last", "clip_fps"}
 FAR = 1e6  # px: as far from the picture as a place may be
 
 
@@ -155,12 +158,16 @@ class STILLWATER_PG_motion(bpy.types.PropertyGroup):
             ("ripple", "Ripple", "Water: waves under the wind", ICONS["ripple"], 2),
             ("bob", "Bob", "Boats: heaves and rolls with the water", ICONS["bob"], 3),
             ("drift", "Drift", "Clouds: passes endlessly", ICONS["drift"], 4),
+            ("flow", "Flow", "Rivers, waterfalls, smoke, fire: flows for ever along strokes", ICONS["flow"], 5),
+            *([("example", "Example", "Looks and moves as a fluid in a clip", ICONS["example"], 6)] if "example" in ICONS else []),
         ],
     )
     sway: PointerProperty(type=STILLWATER_PG_sway)
     ripple: PointerProperty(type=STILLWATER_PG_ripple)
     bob: PointerProperty(type=STILLWATER_PG_bob)
     drift: PointerProperty(type=STILLWATER_PG_drift)
+    flow: PointerProperty(type=fluids.STILLWATER_PG_flow)
+    example: PointerProperty(type=fluids.STILLWATER_PG_example)
 
     def numbers(self):
         """The numbers of its type; None for still."""
@@ -173,5 +180,6 @@ CLASSES = [
     STILLWATER_PG_ripple,
     STILLWATER_PG_bob,
     STILLWATER_PG_drift,
+    *fluids.CLASSES,
     STILLWATER_PG_motion,
 ]

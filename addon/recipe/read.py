@@ -6,12 +6,14 @@ no place for is refused, never dropped.
 
 from collections.abc import Callable
 
+from .flow import drawn_of
 from .numbers import kept
 
 Locate = Callable[[str], str]  # a path as the recipe has it -> as Blender keeps it
 SetCurve = Callable[[str, int, int, list], None]  # path, index, first frame, a value for each frame
 WIDEST = 2**31 - 1  # Blender's whole numbers
-MOTIONS = ("still", "sway", "ripple", "bob", "drift")
+MOTIONS = ("still", "sway", "ripple", "bob", "drift", "flow", "example")
+PARTS = ("strokes", "refine", "freeze", "outline", "transfer", "clip", "clip_frames")  # of fluids: in other properties
 FORMS = ("file", "labels", "scribbles", "lasso", "trimap")
 
 
@@ -53,6 +55,8 @@ def refuse(recipe: dict) -> None:
         if motion["type"] not in MOTIONS:
             sentence = '{place}.motion.type: "{motion}" can\'t be opened in Blender yet'
             raise NoPlace(sentence, place=place, motion=motion["type"])
+        if motion.get("transfer", {}).get("strokes"):
+            raise NoPlace("{place}.motion.transfer.strokes: can't be opened in Blender yet", place=place)
         seeds[f"{place}.motion.seed"] = motion.get("seed")
         for part, said in ((f"{place}.matte", matte or {}), (f"{place}.fill.source", fill.get("source") or {})):
             seeds[f"{part}.value"] = said.get("value")
@@ -110,7 +114,7 @@ def _layer(layer, part: dict, locate: Locate, writer: _Writer) -> None:
         _matte(layer.fill.source, fill["source"], locate, writer)
         if usual := _usual_touch_up(fill["touch_up"]):
             layer.fill.touch_up_radius, layer.fill.touch_up_seed = usual["radius"] or 0, usual["seed"]
-    _motion(layer.motion, part["motion"], writer)
+    _motion(layer.motion, part["motion"], locate, writer)
 
 
 def _matte(matte, said: dict | None, locate: Locate, writer: _Writer) -> None:
@@ -127,6 +131,8 @@ def strokes_of(part: dict) -> dict[str, list]:
     fill = part["fill"]
     found = {**_drawn(part["matte"], ""), **_drawn(fill.get("source"), "source_")}
     touched, usual = fill.get("touch_up") or [], _usual_touch_up(fill.get("touch_up"))
+    if part["motion"]["type"] in ("flow", "example"):
+        found |= drawn_of(part["motion"])
     found["touch_up"] = [{"stroke": each["stroke"]} for each in touched] if usual else touched
     return {key: strokes for key, strokes in found.items() if strokes}
 
@@ -143,12 +149,12 @@ def _usual_touch_up(touched: list | None) -> dict | None:
     return numbers[0] if numbers and all(each == numbers[0] for each in numbers) else None
 
 
-def _motion(motion, part: dict, writer: _Writer) -> None:
+def _motion(motion, part: dict, locate: Locate, writer: _Writer) -> None:
     motion.type = part["type"]
     if motion.type == "still":
         return
     group = getattr(motion, motion.type)
-    writer.fields(group, part, but=("type", "armature", "waterline"))
+    writer.fields(group, part, but=("type", "armature", "waterline", *PARTS))
     match motion.type:
         case "sway":
             group.armature_root, group.armature_tip = part["armature"]
@@ -157,3 +163,25 @@ def _motion(motion, part: dict, writer: _Writer) -> None:
                 group.waterline.add().place = place
         case "drift":
             group.use_velocity = part["velocity"] is not None
+        case "flow":
+            _flowing(motion.flow, group, part)
+        case "example":
+            _flowing(motion.flow, group, part)
+            _example(group, part, locate)
+
+
+def _example(example, part: dict, locate: Locate) -> None:
+    example.clip, example.use_grid = locate(part["clip"]), part["grid"] is not None
+    example.transfer_patch, example.transfer_order = part["transfer"]["patch"], part["transfer"]["order"]
+    if part["clip_frames"] is not None:
+        example.use_clip_frames, (example.clip_first, example.clip_last) = True, part["clip_frames"]
+
+
+def _flowing(brush, flow, part: dict) -> None:
+    """What all fluids have. The next stroke goes on as the last one of the recipe: `brush` says what it gets."""
+    flow.refine_width, flow.refine_amount = part["refine"]["width"], part["refine"]["amount"]
+    if part["outline"] is not None:
+        flow.outline_moving, flow.outline_persistence = part["outline"]["moving"], part["outline"]["persistence"]
+    if part["strokes"]:
+        last = part["strokes"][-1]
+        brush.stroke_speed, brush.stroke_local, brush.stroke_alpha = last["speed"], last["local"], last["alpha"]

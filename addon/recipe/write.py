@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .animation import Animation
+from .flow import strokes_of_flow
 from .numbers import over_time, plain, plain_all
 
 Locate = Callable[[str], str]  # a path as Blender keeps it -> as the recipe has it
@@ -95,7 +96,7 @@ def _layer(picture, layer, animation: Animation, locate: Locate, drawn: Drawn) -
         **_given("follows", followed and {"layer": followed, "mirror": layer.follows.mirror}),
         **_given("matte", _matte(layer.matte, layer.id, locate, drawn)),
         "fill": _fill(layer.fill, layer.id, locate, drawn),
-        "motion": _motion(layer, animation, drawn),
+        "motion": _motion(layer, animation, locate, drawn),
     }
 
 
@@ -136,7 +137,7 @@ def _fill(fill, layer_id: str, locate: Locate, drawn: Drawn) -> dict:
     }
 
 
-def _motion(layer, animation: Animation, drawn: Drawn) -> dict:
+def _motion(layer, animation: Animation, locate: Locate, drawn: Drawn) -> dict:
     motion = layer.motion
     match motion.type:
         case "sway":
@@ -154,4 +155,36 @@ def _motion(layer, animation: Animation, drawn: Drawn) -> dict:
         case "drift":
             way = "velocity" if motion.drift.use_velocity else "wind"
             return {"type": "drift", way: _value(motion.drift, way, animation)}
+        case "flow":
+            return {"type": "flow", **_flowing(layer, motion.flow, animation, drawn), "period": plain(motion.flow.period),
+                    **_given("freeze", drawn(layer.id, "freeze"))}
+        case "example":
+            return {"type": "example", **_flowing(layer, motion.example, animation, drawn), **_example(motion.example, locate)}
     return {"type": "still"}
+
+
+def _flowing(layer, numbers, animation: Animation, drawn: Drawn) -> dict:
+    """What all fluids have. `numbers`: of the layer's motion."""
+    brush = layer.motion.flow
+    usual = {"speed": plain(brush.stroke_speed), "local": brush.stroke_local, "alpha": plain(brush.stroke_alpha)}
+    outline = {"moving": True, "persistence": plain(numbers.outline_persistence)} if numbers.outline_moving else None
+    return {
+        "strokes": strokes_of_flow(lambda key: drawn(layer.id, key), usual),
+        "refine": {"width": plain(numbers.refine_width), "amount": plain(numbers.refine_amount)},
+        "speed": _value(numbers, "speed", animation),
+        **_given("outline", outline),
+    }
+
+
+def _example(example, locate: Locate) -> dict:
+    names = ("life", "repetitions", "matching", "endless")
+    numbers = ("clip_scale", "shutter", "average_blur", "stylize")
+    return {
+        **_given("clip", example.clip and locate(example.clip)),
+        **_given("clip_frames", [example.clip_first, example.clip_last] if example.use_clip_frames else None),
+        **_given("clip_fps", plain(example.clip_fps)),
+        **_given("grid", list(example.grid) if example.use_grid else None),
+        **{name: getattr(example, name) for name in names},
+        **{name: plain(getattr(example, name)) for name in numbers},
+        "transfer": {"patch": example.transfer_patch, "order": example.transfer_order},
+    }

@@ -5,11 +5,12 @@
     lines, roles             what they say there, by their role
     gp_layers                which grease-pencil layer holds which layer's strokes of which role
     draw_mode, operators     drawing and deleting them
+    brush                    the speed and the weight that each keeps
     change                   giving them another role
     lay                      from the recipe back to strokes
     panel                    its buttons, and the tool in the toolbar
 
-Others use drawn(), replaced(), cut_out(), lay_down(), copy_roles() and remove_roles().
+Others use drawn(), replaced(), cut_out(), ready(), lay_down(), scale_speeds(), copy_roles() and remove_roles().
 """
 
 from functools import cache
@@ -18,12 +19,15 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..properties import names
-from . import draw_mode, gp_layers, lay, operators, panel, read, roles
+from . import brush, draw_mode, gp_layers, lay, operators, panel, read, roles
 
 CLASSES = [*operators.CLASSES, *panel.CLASSES]
 
 copy_roles = gp_layers.copy  # (picture, from_id, to_id): a duplicated layer gets strokes of its own
 remove_roles = gp_layers.remove  # (picture, layer_id): before a layer goes
+FLUIDS = roles.FLUIDS  # the motions that flow
+ready = draw_mode.holder_of  # (context, picture): its object for strokes, made where there is none, and shown
+scale_speeds = brush.scale_speeds  # (picture, factor)
 lay_down = lay.down  # (scene, picture, layer_id, strokes by the keys of their roles, as the recipe has them)
 
 
@@ -51,10 +55,16 @@ def replaced(scene, picture, layer=None) -> set[str]:
 
 
 def cut_out(scene, picture, layer) -> dict[str, list]:
-    """What is drawn of a layer's matte and fill, as lay_down() takes it. Throws ValueError as drawn() does."""
-    geometry = drawn(scene, picture)
-    said = {role.key: geometry(layer.id, role.key) for role in roles.of_layer(layer) if role.of}
-    return {key: strokes for key, strokes in said.items() if strokes}
+    """What is drawn of a layer's matte and fill, and of how it flows, as lay_down() takes it.
+
+    What other motions have drawn are numbers as well. Throws ValueError as drawn() does.
+    """
+    geometry, usual = drawn(scene, picture), brush.of_layer(layer.motion.flow)
+    said = {role.key: geometry(layer.id, role.key) for role in roles.of_layer(layer) if role.of or role.motion == "flow"}
+    return {
+        key: [{**usual, **stroke} for stroke in strokes] if roles.by_key(key).brushed else strokes
+        for key, strokes in said.items() if strokes
+    }  # fmt: skip
 
 
 @persistent

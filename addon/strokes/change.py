@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 
-from . import control_points, gp_layers
+from . import brush, control_points, gp_layers
 from .read import layer_to_world
 from .roles import Role
 
@@ -48,10 +48,31 @@ def _transform_selected(drawing, matrix: np.ndarray) -> None:
 
 def _selected_points(drawing) -> np.ndarray:
     """All points of the strokes of which any is selected."""
-    offsets = control_points.offsets_of(drawing)
-    sizes = np.diff(offsets)
-    kept = drawing.attributes[".selection"]
+    return np.repeat(_selected(drawing), np.diff(control_points.offsets_of(drawing)))
+
+
+def _selected(drawing) -> np.ndarray:
+    """Whether any point of each stroke is selected."""
+    kept = drawing.attributes.get(".selection")
+    if kept is None:
+        return np.ones(drawing.attributes.domain_size("CURVE"), bool)
     flags = np.array([item.value for item in kept.data], bool)
-    if kept.domain == "POINT":
-        flags = np.logical_or.reduceat(flags, offsets[:-1])
-    return np.repeat(flags, sizes)
+    return np.logical_or.reduceat(flags, control_points.offsets_of(drawing)[:-1]) if kept.domain == "POINT" else flags
+
+
+def set_flow(context, picture, said: dict) -> int:
+    """Gives the strokes that are selected in edit mode, of those that say how something flows, these numbers.
+
+    Returns how many there were.
+    """
+    count = 0
+    for part, role in gp_layers.all_of(picture):
+        key = part.get_frame_at(context.scene.frame_current)
+        if not role.brushed or key is None or part.hide or part.lock or not len(key.drawing.curve_offsets):
+            continue
+        chosen = np.flatnonzero(_selected(key.drawing))
+        if chosen.size:
+            brush.write(key.drawing, chosen, [said] * chosen.size)
+            key.drawing.tag_positions_changed()
+            count += chosen.size
+    return count

@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import versions
 from ..properties import names
-from . import control_points, gp_layers, read, roles
+from . import brush, control_points, gp_layers, read, roles
 
 MODE = "PAINT_GREASE_PENCIL"
 INTERVAL = 0.25  # s
@@ -32,12 +32,13 @@ def enter(context, picture, layer, role: roles.Role) -> None:
     leave(scene)
     if context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-    holder = _holder(context, picture)
+    holder = holder_of(context, picture)
     layer_id = layer.id if layer is not None else ""
     part = gp_layers.ensure(picture, layer_id, role)
     part.hide = part.lock = False
     gp_layers.fade(picture, layer_id if role.of else "")
-    gp_layers.ensure_key(part, role, scene.frame_current if role.keyed else min(scene.frame_current, scene.frame_start))
+    begins_late = role.keyed and len(part.frames)
+    gp_layers.ensure_key(part, role, scene.frame_current if begins_late else min(scene.frame_current, scene.frame_start))
     holder.data.layers.active = part
     holder.active_material_index = gp_layers.material(holder.data, role)
     context.view_layer.objects.active = holder
@@ -59,6 +60,7 @@ def finish(scene) -> None:
     if picture is not None and role.one:
         for part in gp_layers.of(picture, drawing.layer_id, role):
             _keep_last(part)
+    _stamp(scene)
     if _is_drawing(scene):
         bpy.ops.object.mode_set(mode="OBJECT")
     layer = names.layer_by_id(picture, drawing.layer_id) if picture is not None and drawing.new_layer else None
@@ -71,6 +73,7 @@ def finish(scene) -> None:
 def leave(scene) -> None:
     """Says that nothing is being drawn any more."""
     if scene.stillwater.drawing.role:
+        _stamp(scene)
         picture, _ = drawn(scene)
         if picture is not None:
             gp_layers.fade(picture)
@@ -117,7 +120,17 @@ def tick() -> float | None:
             bpy.ops.ed.undo_push(message="New Layer from Outline")
         elif scene.stillwater.drawing.role and scene.session_uid not in _shelves:
             _take_shelf_away(scene)
+        if scene.stillwater.drawing.role and not pen_is_down():
+            _stamp(scene)
     return INTERVAL if any(scene.stillwater.drawing.role for scene in bpy.data.scenes) else None
+
+
+def _stamp(scene) -> None:
+    """Strokes that were just drawn keep the numbers that their layer has now."""
+    picture, role = drawn(scene)
+    layer = names.layer_by_id(picture, scene.stillwater.drawing.layer_id) if picture is not None else None
+    if layer is not None and role.brushed and gp_layers.data_of(picture) is not None:
+        brush.stamp(picture, layer)
 
 
 def _has_one(scene) -> bool:
@@ -153,8 +166,8 @@ def _is_drawing(scene) -> bool:
     return picture is not None and gp_layers.data_of(picture) is not None and picture.strokes.mode == MODE
 
 
-def _holder(context, picture):
-    """The picture's grease-pencil object, made where there is none, and shown."""
+def holder_of(context, picture):
+    """The picture's grease-pencil object, made where there is none, and shown. Throws ValueError with a sentence."""
     if picture.plane is None:
         sentence = rpt_("{name}: has no plane in the scene to draw on; make it anew with Set Up in Scene")
         raise ValueError(sentence.format(name=picture.name))

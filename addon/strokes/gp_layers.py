@@ -26,6 +26,11 @@ def of(picture, layer_id: str, role: roles.Role) -> list:
     return [part for part, mark in _marked(picture) if mark == (layer_id, role)]
 
 
+def all_of(picture) -> list[tuple]:
+    """Each grease-pencil layer that has a role, with the role."""
+    return [(part, mark[1]) for part, mark in _marked(picture) if mark is not None]
+
+
 def ensure(picture, layer_id: str, role: roles.Role):
     """The uppermost of them, made on the picture's plane where there is none."""
     there = of(picture, layer_id, role)

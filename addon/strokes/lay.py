@@ -4,7 +4,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..properties import plane
-from . import gp_layers, read, roles
+from . import brush, gp_layers, read, roles
 from .lines import ANYWHERE
 
 POLY = "POLY"
@@ -22,15 +22,24 @@ def down(scene, picture, layer_id: str, said: dict[str, list]) -> None:
         if strokes:
             role = roles.by_key(key)
             outline = [{"points": strokes}] if isinstance(strokes[0], list) else strokes
-            _draw(scene, picture, layer_id, role, outline)
+            _draw_at_keys(scene, picture, layer_id, role, outline)
     drawing = scene.stillwater.drawing
     gp_layers.fade(picture, drawing.layer_id if drawing.role else "")
 
 
-def _draw(scene, picture, layer_id: str, role: roles.Role, strokes: list[dict]) -> None:
+def _draw_at_keys(scene, picture, layer_id: str, role: roles.Role, strokes: list[dict]) -> None:
+    """Strokes with a frame lie on a key there, all others on the key that holds at the scene's first frame."""
     part = gp_layers.ensure(picture, layer_id, role)
-    gp_layers.ensure_key(part, role, scene.frame_start)
-    drawing = (part.get_frame_at(scene.frame_start) or part.frames[0]).drawing
+    for frame in sorted({stroke.get("frame") for stroke in strokes}, key=lambda frame: (frame is not None, frame)):
+        if frame is None:
+            gp_layers.ensure_key(part, role, scene.frame_start)
+            key = part.get_frame_at(scene.frame_start) or part.frames[0]
+        else:
+            key = next((key for key in part.frames if key.frame_number == frame), None) or part.frames.new(frame)
+        _draw(picture, part, key.drawing, role, [stroke for stroke in strokes if stroke.get("frame") == frame])
+
+
+def _draw(picture, part, drawing, role: roles.Role, strokes: list[dict]) -> None:
     lines = [stroke.get("stroke", stroke) for stroke in strokes]
     counts = [len(line["points"]) for line in lines]
     before, points_before = len(drawing.strokes), drawing.attributes.domain_size("POINT")
@@ -45,6 +54,8 @@ def _draw(scene, picture, layer_id: str, role: roles.Role, strokes: list[dict]) 
     slot = gp_layers.material(picture.strokes.data, role)
     _store(drawing, "material_index", "INT", "CURVE", before, [slot] * len(counts))
     _store(drawing, "cyclic", "BOOLEAN", "CURVE", before, [role.of.endswith(".lasso")] * len(counts))
+    if role.brushed:
+        brush.write(drawing, range(before, before + len(counts)), strokes)
     radii = [(stroke["radius"] or ANYWHERE) if "radius" in stroke else 0.0 for stroke in strokes]
     seeds = [stroke["seed"] + 1 if "seed" in stroke else 0 for stroke in strokes]
     for name, kind, own in ((read.RADIUS, "FLOAT", radii), (read.SEED, "INT", seeds)):

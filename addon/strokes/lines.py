@@ -1,11 +1,13 @@
 """What strokes say, in the form in which the recipe has it. Needs numpy, no bpy."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 DIGITS = 3  # written of a pixel
 THINNEST, WIDEST = 10.0**-DIGITS, 16384.0  # px: the recipe's
+SHORTEST = 1.0  # px: a shorter stroke says no direction
 ANYWHERE = -1.0  # radius of a stroke's own
 
 
@@ -18,6 +20,7 @@ class Stroke:
     frame: int  # of the key that holds its drawing
     radius: float = 0  # px, its own, of a touch-up; 0 = the layer's
     seed: int = 0  # its own and 1; 0 = the layer's
+    flow: dict | None = None  # speed, local and alpha of its own, of a stroke along which something flows
 
     @property
     def length(self) -> float:
@@ -77,6 +80,19 @@ def all_strokes(strokes: list[Stroke]) -> list | None:
 def touch_ups(strokes: list[Stroke]) -> list | None:
     """Every stroke with the radius and the seed that are its own; None where there is none."""
     return [{"stroke": with_pressure(stroke), **_own(stroke)} for stroke in strokes] or None
+
+
+def flow_strokes(kind: str) -> Callable:
+    """What strokes of one kind ("orientation", "speed", "both") say of a flow: every stroke, dabs only of a speed.
+
+    Each has what is its own, and the frame of its key; None where there is none.
+    """
+
+    def said(strokes: list[Stroke]) -> list | None:
+        telling = [stroke for stroke in strokes if kind == "speed" or stroke.length >= SHORTEST]
+        return [{**with_pressure(each), "kind": kind, **(each.flow or {}), "frame": each.frame} for each in telling] or None
+
+    return said
 
 
 def _own(stroke: Stroke) -> dict:

@@ -3,10 +3,10 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
-from bpy.props import EnumProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..ui import polls
-from . import change, draw_mode, gp_layers, roles
+from . import brush, change, draw_mode, gp_layers, roles
 
 ITEMS = [(role.key, role.name, role.hint, role.icon, role.number) for role in roles.ROLES]
 
@@ -105,6 +105,14 @@ class STILLWATER_OT_stop_drawing(bpy.types.Operator):
         return {"FINISHED"}
 
 
+def in_edit_mode(cls, context) -> bool:
+    """Whether strokes of the picture can be selected; the sentence why not is the operator's."""
+    if context.mode != "EDIT_GREASE_PENCIL" or context.object != context.scene.stillwater.active().strokes:
+        cls.poll_message_set(tip_("Select strokes of the picture in edit mode first"))
+        return False
+    return True
+
+
 class STILLWATER_OT_change_role(OfRole, bpy.types.Operator):
     """Give the selected strokes another role or layer"""
 
@@ -114,13 +122,7 @@ class STILLWATER_OT_change_role(OfRole, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        picture = context.scene.stillwater.active()
-        if not super().poll(context):
-            return False
-        if context.mode != "EDIT_GREASE_PENCIL" or context.object != picture.strokes:
-            cls.poll_message_set(tip_("Select strokes of the picture in edit mode first"))
-            return False
-        return True
+        return super().poll(context) and in_edit_mode(cls, context)
 
     def do(self, context, picture, layer, role):
         if layer is not None:
@@ -149,9 +151,45 @@ class STILLWATER_OT_delete_strokes(OfRole, bpy.types.Operator):
         return {"FINISHED"} if drawings else {"CANCELLED"}
 
 
+class STILLWATER_OT_set_flow(bpy.types.Operator):
+    """Give the selected strokes another speed and weight"""
+
+    bl_idname = "stillwater.set_flow"
+    bl_label = "Set Flow of Strokes"
+    bl_options = {"REGISTER", "UNDO"}
+
+    speed: FloatProperty(
+        name="Speed", description="Speed that the strokes say [px/frame]", default=2, min=0, max=1000, soft_max=20
+    )
+    local: BoolProperty(name="Local", description="The strokes change only what is near them")
+    alpha: FloatProperty(
+        name="Weight", description="How strongly the strokes count against the others (0..1)", subtype="FACTOR",
+        default=1, min=0, max=1,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return polls.own_picture(cls, context) and in_edit_mode(cls, context)
+
+    def invoke(self, context, event):
+        picture = context.scene.stillwater.active()
+        if picture.active_layer < len(picture.layers):
+            said = brush.of_layer(picture.layers[picture.active_layer].motion.flow)
+            self.speed, self.local, self.alpha = said["speed"], said["local"], said["alpha"]
+        return self.execute(context)
+
+    def execute(self, context):
+        said = {"speed": self.speed, "local": self.local, "alpha": self.alpha}
+        if not change.set_flow(context, context.scene.stillwater.active(), said):
+            self.report({"ERROR"}, rpt_("No selected stroke says how something flows"))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
 CLASSES = [
     STILLWATER_OT_draw_stroke,
     STILLWATER_OT_stop_drawing,
     STILLWATER_OT_change_role,
     STILLWATER_OT_delete_strokes,
+    STILLWATER_OT_set_flow,
 ]

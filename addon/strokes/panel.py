@@ -3,6 +3,7 @@
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
+from ..properties import names
 from ..ui import sidebar
 from . import draw_mode, read, roles
 
@@ -17,12 +18,25 @@ class _Strokes(sidebar.OfPicture):
         if context.scene.stillwater.drawing.role:
             layout.operator("stillwater.stop_drawing", icon="CHECKMARK")
             sidebar.say(context, layout, draw_mode.hint(context.scene), "INFO")
+            _draw_brush(layout, context.scene)
         layer = picture.layers[picture.active_layer] if picture.active_layer < len(picture.layers) else None
         column = layout.column(align=True)
         for role in [*(_offered(picture, layer) if layer else ()), *roles.of_motion("")]:
             _draw_role(context, column, picture, layer if roles.is_of_layer(role) else None, role)
         if context.mode == "EDIT_GREASE_PENCIL":
             layout.operator_menu_enum("stillwater.change_role", "role")
+            if layer is not None and layer.motion.type in roles.FLUIDS:
+                layout.operator("stillwater.set_flow")
+
+
+def _draw_brush(layout, scene) -> None:
+    """What the next stroke says of itself, beside where it goes."""
+    picture, role = draw_mode.drawn(scene)
+    layer = names.layer_by_id(picture, scene.stillwater.drawing.layer_id) if picture is not None else None
+    if layer is not None and role.brushed:
+        column = layout.column(align=True)
+        column.use_property_split = True
+        sidebar.draw(column, layer.motion.flow, "stroke_speed", "stroke_local", "stroke_alpha")
 
 
 def _offered(picture, layer) -> list[roles.Role]:

@@ -11,7 +11,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..properties import plane
-from . import control_points, gp_layers, projection
+from . import brush, control_points, gp_layers, projection
 from .curves import evaluate
 from .lines import Stroke
 from .roles import Role
@@ -30,7 +30,7 @@ def strokes(scene, picture, layer_id: str, role: Role, seen: Callable | None = N
         projected = seen() if seen is not None else projection_of(picture)
         try:
             for key in keys:
-                found += _in_drawing(picture.strokes, part, key, projected)
+                found += _in_drawing(picture.strokes, part, key, projected, role.brushed)
         except ValueError as error:
             raise ValueError(rpt_("{name}: a stroke {error}").format(name=part.name, error=rpt_(str(error)))) from error
     return found
@@ -77,7 +77,7 @@ def _eye(camera) -> np.ndarray | None:
     return np.append(np.array(camera.matrix_world)[:3, 2 if parallel else 3], 0.0 if parallel else 1.0)
 
 
-def _in_drawing(holder, part, key, seen: projection.Projection) -> list[Stroke]:
+def _in_drawing(holder, part, key, seen: projection.Projection, brushed: bool) -> list[Stroke]:
     to_world = np.array(layer_to_world(holder, part))
 
     def place(points):
@@ -88,8 +88,11 @@ def _in_drawing(holder, part, key, seen: projection.Projection) -> list[Stroke]:
     offsets, points = evaluate(curves, TOLERANCE / finest if finest else 0)
     pixels, scale = place(points)
     widths = np.maximum(2 * (points[:, 3] + part.radius_offset) * size_of(holder) * scale, 0)
-    own = zip(offsets[:-1], offsets[1:], *(_own(key.drawing, name, len(offsets) - 1) for name in (RADIUS, SEED)), strict=True)
-    return [Stroke(pixels[a:b], widths[a:b], key.frame_number, radius, seed) for a, b, radius, seed in own if b > a]
+    count = len(offsets) - 1
+    flows = brush.of_curves(key.drawing, count) if brushed else [None] * count
+    own = (*(_own(key.drawing, name, count) for name in (RADIUS, SEED)), flows)
+    parts = [(slice(a, b), said) for a, b, *said in zip(offsets[:-1], offsets[1:], *own, strict=True) if b > a]
+    return [Stroke(pixels[part], widths[part], key.frame_number, *said) for part, said in parts]
 
 
 def size_of(holder) -> float:

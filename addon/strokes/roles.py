@@ -23,6 +23,7 @@ class Role:
     geometry: Callable  # strokes -> what the recipe has for them, None where they say nothing
     of: str = ""  # what of a layer they say, and its form: "matte.scribbles", "fill.exemplar", "source.lasso"
     points: int = 2  # a stroke with fewer says nothing
+    brushed: bool = False  # each stroke has a speed, a weight and a reach of its own (brush.py)
     is_typed: Callable = lambda numbers: False  # whether the numbers that strokes stand for say it as well
 
 
@@ -81,7 +82,31 @@ ROLES = (
         geometry=lines.polygon, points=3,
         hint="Draw once around what the hole behind the layer may be filled with; a new outline replaces the former",
     ),
+    Role(
+        key="flow", number=11, name="Flow", motion="flow", replaces=("strokes",), brushed=True,
+        colour=(0.15, 0.55, 1.0), icon="MOD_FLUIDSIM", one=False, keyed=True, geometry=lines.flow_strokes("both"),
+        hint="Draw the way that it flows, as fast as Stroke Speed says; a few long strokes are enough",
+    ),
+    Role(
+        key="orientation", number=12, name="Direction", motion="flow", replaces=("strokes",), brushed=True,
+        colour=(0.3, 0.95, 0.85), icon="ORIENTATION_NORMAL", one=False, keyed=True,
+        geometry=lines.flow_strokes("orientation"),
+        hint="Draw the way that it flows; how fast is said by the other strokes",
+    ),
+    Role(
+        key="speed", number=13, name="Speed", motion="flow", replaces=("speeds",), brushed=True,
+        colour=(1.0, 0.7, 0.25), icon="PREVIEW_RANGE", one=False, keyed=True, geometry=lines.flow_strokes("speed"),
+        hint="Draw where it is as fast as Stroke Speed says, in any direction; 0 is still water", points=1,
+    ),
+    Role(
+        key="freeze", number=14, name="Hold Still", motion="flow", replaces=("freeze",),
+        colour=(0.8, 0.85, 0.95), icon="FREEZE", one=False, keyed=False, geometry=lines.all_strokes, points=1,
+        hint="Draw over what stays where it is: rocks, banks, logs",
+    ),
 )
+
+
+FLUIDS = ("flow", "example")  # what flows is said by the same strokes
 
 
 def by_key(key: str) -> Role:
@@ -111,7 +136,7 @@ def is_of_layer(role: Role) -> bool:
 def has(layer, role: Role) -> bool:
     """Whether strokes of this role say something of a layer as it is."""
     if not role.of:
-        return layer.motion.type == role.motion
+        return layer.motion.type == role.motion or (role.brushed and layer.motion.type in FLUIDS)
     what, _, form = role.of.partition(".")
     if what == "matte":
         return layer.matte.form == form

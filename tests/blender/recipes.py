@@ -98,6 +98,24 @@ def cut_out() -> dict:
     }
 
 
+FLOW_POINTS = [[4, 4, 0.5], [9, 5, 1], [14, 4, 0.5]]
+FLOW_STROKES = [
+    {"points": FLOW_POINTS, "width": 3, "kind": "both", "speed": 0.5, "local": True, "alpha": 0.75, "frame": 1},
+    {"points": FLOW_POINTS[:2], "width": 2, "kind": "both", "speed": 1.5, "local": False, "alpha": 1, "frame": 4},
+    {"points": FLOW_POINTS[1:], "width": 1, "kind": "speed", "speed": 0, "local": False, "alpha": 0.25, "frame": None},
+]
+
+
+def flowing() -> dict:
+    """A layer that flows, with strokes keyed in time."""
+    flow = {
+        "type": "flow", "strokes": FLOW_STROKES, "refine": {"width": 5, "amount": 0.5}, "period": 12,
+        "speed": {"first": -1, "values": [1, 1, 2, 1.5, 3, 1, 1, 1, 1]}, "freeze": [{"points": [[20, 8], [25, 9]], "width": 4}],
+    }  # fmt: skip
+    rest = {name: value for name, value in whole().items() if name != "layers"}
+    return {**rest, "layers": [{"name": "river", "motion": flow}]}
+
+
 def write(folder: Path, recipe: dict) -> Path:
     """Writes the recipe and a picture of 32 x 16 beside it; returns the recipe's path."""
     folder.mkdir(parents=True, exist_ok=True)

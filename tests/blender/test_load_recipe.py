@@ -69,7 +69,7 @@ def test_two_recipes_are_two_pictures(opened):
     assert pictures[0].tree != pictures[1].tree
 
 
-FLOW = {"name": "a", "motion": {"type": "flow"}}
+LIBRARY = {"name": "a", "motion": {"type": "library", "library": "clips"}}
 STROKE = {"points": [[1, 1], [2, 2]]}
 TOUCHED = {"name": "a", "fill": {"method": "exemplar", "touch_up": [{"stroke": STROKE, "seed": 2**31 - 1}]}}
 
@@ -83,7 +83,7 @@ TOUCHED = {"name": "a", "fill": {"method": "exemplar", "touch_up": [{"stroke": S
         ({"picture": "recipe.json"}, "recipe.json"),
         ({"seed": 2**40}, r"seed: 1099511627776 is above what Blender can hold \(2147483647\)"),
         ({"layers": [TOUCHED]}, r"layers.0..fill.touch_up.0..seed: 2147483648 is above what Blender can hold"),
-        ({"layers": [FLOW]}, 'motion.type: "flow"'),
+        ({"layers": [LIBRARY]}, 'motion.type: "library"'),
         ({"picture": None, "size": [32, 16]}, "picture: missing"),
     ],
 )

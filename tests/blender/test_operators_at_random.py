@@ -17,8 +17,9 @@ from pictures import paint
 
 SEEDS, STEPS = 50, 15
 SLOW = 5  # every so-manieth sequence bakes, and plays its pictures live
-MOTIONS = ["still", "sway", "ripple", "bob", "drift"]
+MOTIONS = ["still", "sway", "ripple", "bob", "drift", "flow"]
 ROLES = ["sway_line", "waterline", "horizon", "horizon", "foreground", "background", "outline", "touch_up"]
+ROLES += ["flow", "speed", "freeze"]
 
 
 class Artist:
@@ -93,6 +94,7 @@ CALLS = {
     "move_layer": one_of("direction", ["UP", "DOWN", "TOP", "BOTTOM"]),
     "open_picture": lambda artist: {"filepath": artist.picture_file(), "use_render": artist.dice.random() < 0.8},
     "paste_layers": nothing,
+    "propose_flow": one_of("kind", ["water", "smoke"]),
     "refresh": nothing,
     "reload_picture": nothing,
     "remove_layer": nothing,
@@ -101,6 +103,7 @@ CALLS = {
     "remove_waterline_point": one_of("index", [-1, 0, 5]),
     "replace_picture": lambda artist: {"filepath": artist.picture_file()},
     "save_preset": lambda artist: {"name": artist.dice.choice("pq"), "of": artist.dice.choice(["MOTION", "WIND"])},
+    "set_flow": one_of("speed", [0, 3]),
     "select_layers": one_of("action", ["SELECT", "DESELECT", "INVERT", "MOTION"]),
     "set_motion": one_of("type", MOTIONS),
     "show_layers": one_of("visible", [True, False]),

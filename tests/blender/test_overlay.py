@@ -258,11 +258,11 @@ def test_a_hidden_plane_has_no_overlays(room, scene, live):
 
 
 def test_it_draws_while_it_is_registered(extension, room):
-    assert room.draw._handle is not None
+    assert len(room.draw._handles) == 2
     room.draw.end()
-    assert room.draw._handle is None
+    assert room.draw._handles == []
     room.draw.begin()
-    assert room.draw._handle is not None
+    assert len(room.draw._handles) == 2
 
 
 def test_the_switches_stand_in_the_overlays_popover(room, scene, picture):
@@ -270,7 +270,7 @@ def test_the_switches_stand_in_the_overlays_popover(room, scene, picture):
     shown = Recorder()
     space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=True))
     room.settings.draw(SimpleNamespace(layout=shown), SimpleNamespace(scene=scene, space_data=space))
-    assert shown.properties == ["sway_lines", "wind", "water", "waterlines", "outline", "tint", "checker"]
+    assert shown.properties == ["sway_lines", "wind", "water", "waterlines", "outline", "tint", "checker", "flow", "flow_colors"]
 
 
 def test_what_goes_wrong_while_drawing_is_a_sentence(room, scene, live, monkeypatch):

@@ -10,6 +10,7 @@ import recipes
 import stillwater
 from msgspec import inspect
 from stillwater.recipe import Layer, Output, Recipe, View, Wind
+from stillwater.recipe.fluids import Flow
 from stillwater.recipe.mattes import FileMatte, LabelMatte
 from stillwater.recipe.picture import Follows
 from stillwater.recipe.stochastic import Bob, Drift, Ripple, Sway
@@ -17,6 +18,8 @@ from stillwater.recipe.stochastic import Bob, Drift, Ripple, Sway
 # Property group -> the recipe's class, and the properties that stand for its fields under another name.
 OURS = {"id", "name", "tree", "plane", "camera", "strokes", "picture_size", "active_layer"}  # of a picture, in Blender
 OURS |= {"collection", "image", "missing"}
+FLOWING = {"refine_width", "refine_amount", "outline_moving", "outline_persistence", "proposal"}  # test_flow.py has them
+FLOWING |= {"stroke_speed", "stroke_local", "stroke_alpha"}
 GROUPS = {
     "STILLWATER_PG_picture": (Recipe, OURS),
     "STILLWATER_PG_wind": (Wind, set()),
@@ -28,9 +31,11 @@ GROUPS = {
     "STILLWATER_PG_ripple": (Ripple, set()),
     "STILLWATER_PG_bob": (Bob, {"water_id"}),
     "STILLWATER_PG_drift": (Drift, {"use_velocity"}),
+    "STILLWATER_PG_flow": (Flow, FLOWING),
 }
 # Fields that the scene itself has, or that stand in properties of another name.
 ELSEWHERE = {Recipe: {"stillwater", "frames", "fps", "size"}, View: {"horizon"}, Sway: {"armature"}}
+ELSEWHERE[Flow] = {"strokes", "refine", "freeze", "outline"}
 
 
 def class_of(group):
@@ -121,15 +126,16 @@ def test_a_menu_offers_what_the_recipe_allows(extension, group, name):
 def test_new_properties_make_the_recipe_s_defaults(extension, scene, picture, written):
     """An untouched layer of each motion is written as if nothing had been said."""
     picture.picture = "/picture.png"
-    for kind in ("sway", "ripple", "bob", "drift"):
+    for kind in ("sway", "ripple", "bob", "drift", "flow"):
         extension.properties.arrange.add_layer(picture, kind).motion.type = kind
     said = written()
     for layer in said["layers"]:
         motion = dict(layer["motion"])
-        cls = {"sway": Sway, "ripple": Ripple, "bob": Bob, "drift": Drift}.get(motion.pop("type"))
+        cls = {"sway": Sway, "ripple": Ripple, "bob": Bob, "drift": Drift, "flow": Flow}.get(motion.pop("type"))
         for name, value in motion.items():
-            if cls and fields(cls)[name].default not in (inspect.NODEFAULT, None):
-                assert value == fields(cls)[name].default, (layer["name"], name)
+            default = fields(cls)[name].default if cls else None
+            if default not in (inspect.NODEFAULT, None):
+                assert value == msgspec.to_builtins(default), (layer["name"], name)
 
 
 @pytest.fixture
