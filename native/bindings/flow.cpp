@@ -6,6 +6,7 @@
 #include "bindings/rooms.h"
 #include "flow/flow_cycle.h"
 #include "flow/flow_map.h"
+#include "flow/optical_flow.h"
 
 namespace stillwater {
 namespace {
@@ -35,6 +36,18 @@ py::array_t<float> advect_array(const FloatArray& image, const FloatArray& veloc
   return as_array(carried);
 }
 
+py::array_t<float> optical_flow_array(const FloatArray& a, const FloatArray& b, const std::string& quality) {
+  const Plane from = as_image<float>(a, "a"), to = as_image<float>(b, "b");
+  Field flow;
+  {
+    const py::gil_scoped_release release;
+    flow = optical_flow(from, to, flow_quality_named(quality));
+  }
+  return as_array(flow);
+}
+
+py::array_t<float> luma_array(const FloatArray& colours) { return as_array(luma(as_image<cv::Vec3f>(colours, "colours"))); }
+
 }  // namespace
 
 void bind_flow(py::module_& module) {
@@ -46,6 +59,8 @@ void bind_flow(py::module_& module) {
            py::arg("step") = usual.step, py::arg("field") = usual.field, py::arg("next_field") = usual.next_field,
            py::arg("next_share") = usual.next_share);
   module.def("flow_map", &flow_map_array, py::arg("velocity"), py::arg("frames"));
+  module.def("optical_flow", &optical_flow_array, py::arg("a"), py::arg("b"), py::arg("quality"));
+  module.def("luma", &luma_array, py::arg("colours"));
   module.def("advect", &advect_array, py::arg("image"), py::arg("velocity"), py::arg("frames"));
 }
 

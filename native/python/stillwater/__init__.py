@@ -51,6 +51,7 @@ _HOMES = {
     "match_histogram": "appearance",
     "match_texture": "appearance",
     "motion_blur": "appearance",
+    "optical_flow": "flow",
 }
 
 __all__ = sorted(_HOMES)

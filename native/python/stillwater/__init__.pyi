@@ -1,5 +1,6 @@
 from .flow import advect as advect
 from .flow import flow_map as flow_map
+from .flow import optical_flow as optical_flow
 from .flow_painting import paint_flow as paint_flow
 from .flow_painting import propose_flow as propose_flow
 from .flow_painting import refine_flow as refine_flow

@@ -1,4 +1,6 @@
-"""Where a steady flow carries things."""
+"""Where a steady flow carries things, and the flow between two pictures."""
+
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,3 +49,31 @@ def advect(image: ArrayLike, velocity: ArrayLike, frames: float) -> NDArray[np.f
     Source: Okabe et al. 2009, 3: W(I)(x) = I(x - v(x)), for any time.
     """
     return _straight(engine.advect(_premultiplied(image), velocity, frames))
+
+
+def optical_flow(
+    a: ArrayLike, b: ArrayLike, quality: Literal["fast", "medium", "best"] = "medium"
+) -> NDArray[np.float32]:
+    """Where what is seen at each pixel of one picture is in another.
+
+    Args:
+        a, b: height x width, or height x width x 3 or 4 (colours count by their Rec. 709 luma, alpha does not), at
+            least 16 pixels a side. Any range of numbers, also negative ones.
+        quality: how carefully; each step takes several times as long as the one before.
+
+    Returns:
+        float32, height x width x 2, pixels, x right, y down. 0 where nothing is seen.
+
+    Raises:
+        ValueError: an array of another shape, sizes that differ, numbers that are not finite, an unknown quality.
+
+    Source: Kroeger et al. 2016 (dense inverse search), with variational refinement (Brox et al. 2004).
+    """
+    return engine.optical_flow(_grey(a), _grey(b), quality)
+
+
+def _grey(image: ArrayLike) -> NDArray[np.float32]:
+    pixels = np.asarray(image, np.float32)
+    if pixels.ndim == 3 and pixels.shape[2] in (3, 4):
+        return engine.luma(np.ascontiguousarray(pixels[..., :3]))
+    return pixels
