@@ -93,7 +93,7 @@ def wood(rng):
         things += pine((x, y, -0.1), height, spread, bark, (0.075, 0.10, 0.045), rng, bare)
     for x in np.arange(-19, 20, 2.1):
         at = (x + rng.uniform(-0.8, 0.8), rng.uniform(22, 30), -0.1)
-        things += pine(at, rng.uniform(6.0, 10.5), rng.uniform(1.6, 2.3), bark, (0.05, 0.075, 0.07), rng, 0.03)
+        things += pine(at, rng.uniform(6.0, 10.5), rng.uniform(1.6, 2.3), bark, (0.05, 0.075, 0.07), rng, 0.03, 9)
     return things
 
 
@@ -138,7 +138,7 @@ FLAME = [(44, 11, {"density": 1.8, "spread": 0.10, "variety": 0.03, "lights_last
 
 
 def set_stage(given) -> None:
-    stage.clear(given.width, given.height, 24)
+    stage.clear(given.width // 2, given.height // 2, 12)
     stage.camera(EYE, (0.36, 6, 1.22), 50)
     stage.glimmer(FIRE + [0, -0.02, 0.62], (1.0, 0.47, 0.14), 330, 0.28)
     stage.glimmer(FIRE + [0.05, 0.1, 1.15], (1.0, 0.42, 0.11), 130, 0.35)
@@ -163,7 +163,18 @@ def see(rng) -> dict:
         "smoke": stage.render(smoke, unseen=[*fire, *haze, *heaven]),
         "fire": stage.render(fire, unseen=[*smoke, *haze, *heaven]),
     }
-    return {name: stage.display(image, 1.15, 1.12) for name, image in linear.items()}
+    return {name: twice(stage.display(image, 1.15, 1.12)) for name, image in linear.items()}
+
+
+def twice(image: np.ndarray) -> np.ndarray:
+    """The image enlarged: what the painter looks at is blurred by his brush, so half the pixels do."""
+    for axis in (0, 1):
+        last = image.shape[axis] - 1
+        at = np.arange(2 * (last + 1)) / 2 - 0.25
+        low = np.clip(np.floor(at).astype(int), 0, last)
+        share = np.expand_dims(np.clip(at - low, 0, 1).astype(np.float32), [1 - axis, 2])
+        image = image.take(low, axis) * (1 - share) + image.take(np.minimum(low + 1, last), axis) * share
+    return image
 
 
 def airy(colour: np.ndarray, cover: np.ndarray) -> np.ndarray:
@@ -204,7 +215,8 @@ def main() -> None:
     easel = Easel(given.width, given.height, 1903)
     set_stage(given)
     write_sample(given.output, paint_layers(easel, see(easel.rng)), filled=("fire", "smoke"))
-    print("foot", stage.place(FIRE), "tips", stage.place(FIRE + [0, 0, 1.6]))
+    # What the recipe says in pixels.
+    print("foot", *(2 * np.array(stage.place(FIRE))), "tips", *(2 * np.array(stage.place(FIRE + [0, 0, 1.6]))))
 
 
 if __name__ == "__main__":
