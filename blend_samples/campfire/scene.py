@@ -109,8 +109,8 @@ def stars(rng):
 
 def flames(rng):
     tongues = []
-    for count, spread, tall, wide, heat, away in ((11, 0.40, (0.75, 1.55), 0.40, 0.36, 0.06), (13, 0.30, (0.55, 1.30), 0.28, 0.62, 0.0),
-                                                  (11, 0.22, (0.35, 0.90), 0.20, 1.0, -0.06)):
+    for count, spread, tall, wide, heat, away in ((11, 0.46, (0.95, 2.05), 0.36, 0.36, 0.06), (13, 0.35, (0.70, 1.70), 0.26, 0.62, 0.0),
+                                                  (11, 0.26, (0.45, 1.15), 0.19, 1.0, -0.06)):
         for k in range(count):
             share = (k + rng.uniform(0.2, 0.8)) / count * 2 - 1
             x = spread * share
@@ -122,8 +122,8 @@ def flames(rng):
 
 def smokes(rng):
     return [wisp(FIRE + [x, 0.2, z], 2.6, width, lean, (0.085, 0.10, 0.135), cover, rng)
-            for x, z, width, lean, cover in ((-0.08, 0.95, 0.34, 0.25, 0.55), (0.10, 1.1, 0.24, 0.62, 0.5),
-                                             (0.0, 1.0, 0.5, 0.45, 0.35), (-0.14, 1.2, 0.2, -0.08, 0.42))]
+            for x, z, width, lean, cover in ((-0.08, 1.25, 0.5, 0.25, 0.42), (0.10, 1.4, 0.4, 0.62, 0.36),
+                                             (0.0, 1.3, 0.8, 0.45, 0.36), (-0.14, 1.5, 0.36, -0.08, 0.34))]
 
 
 NIGHT = [(60, 20, {"density": 1.7, "variety": 0.03}), (32, 10, {"density": 1.2, "error": 0.015, "variety": 0.035}),
@@ -194,12 +194,13 @@ def paint_layers(easel: Easel, seen: dict) -> list:
     level = easel.wander(0.0, 0.22, 260)
     upright = easel.wander(np.pi / 2, 0.16, 120)
     night = easel.paint(seen["sky"], NIGHT, easel.wander(-0.35, 0.5, 260), 0, 0.1)
-    night = over(outlined(easel.paint(seen["trees"], STANDING, upright, 5, 0.2), seen["trees"], 0.5), night)
-    night = over(outlined(easel.paint(seen["glow"], GLOW, easel.wander(0.6, 0.8, 200), 0, 0.03), seen["glow"]), night)
     night = over(outlined(easel.paint(seen["camp"], STANDING, level, 5, 0.22), seen["camp"], 0.6), night)
+    night = over(outlined(easel.paint(seen["trees"], STANDING, upright, 5, 0.2), seen["trees"], 0.8), night)
+    haze = outlined(easel.paint(seen["glow"], GLOW, easel.wander(0.6, 0.8, 200), 0, 0.03), seen["glow"])
+    night = over(0.7 * haze, night)  # it hangs before and behind
     hidden = np.clip(seen["front"][..., 3], 0, 1)
 
-    smoke = outlined(easel.paint(seen["smoke"], SMOKE, upright, 9, 0.05), seen["smoke"], 0.4)
+    smoke = outlined(easel.paint(seen["smoke"], SMOKE, upright, 9, 0.0), seen["smoke"], 0.9)
     air = room(smoke[..., 3], 12 * easel.scale, 2.6, hidden)
     smoky = airy(over(smoke, night)[..., :3], air)
     behind = over(smoky, night)

@@ -83,7 +83,7 @@ def tongue(at: tuple, height: float, width: float, lean: float, heat: float,
                       [1.7, 1.30, 0.52]])
     warm = np.clip(heat * (1 - 0.75 * t) * 4.0, 0, 4)
     colours = np.stack([np.interp(warm, range(5), stops[:, c]) for c in range(3)], axis=1)
-    cover = 0.92 * np.clip(t / 0.06, 0, 1) * (1 - 0.55 * t**2)
+    cover = (0.62 + 0.32 * heat) * np.clip(t / 0.06, 0, 1) * (1 - 0.55 * t**2)
     return ribbon("flame", spine, girth + 0.004, colours, cover, 0.62)
 
 

@@ -29,7 +29,7 @@ def pine(at: tuple, height: float, spread: float, wood: bpy.types.Material, tone
     along = out[:, None] + rng.normal(0, 0.5, place.shape) + [0, 0, -0.5]
     normal = rng.normal(0, 0.6, place.shape) + [0, 0, 0.8]
     count = place.shape[0] * needles
-    size = 0.10 * spread * rng.uniform(0.6, 1.4, count) + 0.08
+    size = 0.06 * spread * rng.uniform(0.6, 1.4, count) + 0.05
     tones = np.array(tone) * rng.uniform(0.55, 1.4, (count, 1))
     tufts = cards("pine needles", place.reshape(-1, 3), normal.reshape(-1, 3), along.reshape(-1, 3), size * 1.6,
                     size * 0.5, leaf("needles", through=0.25), tones)
