@@ -14,10 +14,10 @@ from mathutils import Matrix, Vector
 bpy.utils.expose_bundled_modules()
 
 
-def asked(description: str, folder: str) -> argparse.Namespace:
+def asked(description: str, folder: str, width: int = 1280) -> argparse.Namespace:
     """The command line of a scene: width, height (by the picture's shape, 8 : 5) and output folder."""
     arguments = argparse.ArgumentParser(description=description)
-    arguments.add_argument("--width", type=int, default=1280, help="pixels; the brushes shrink with it")
+    arguments.add_argument("--width", type=int, default=width, help="pixels; the brushes shrink with it")
     arguments.add_argument("--output", default=folder, help="folder of the picture, mattes/ and behind/")
     given = arguments.parse_args()
     given.height = given.width * 5 // 8
@@ -101,6 +101,16 @@ def sun(azimuth: float, elevation: float, colour: tuple, strength: float, size: 
     back = Vector((math.cos(a) * math.cos(e), math.sin(a) * math.cos(e), math.sin(e)))
     lamp.rotation_euler = back.to_track_quat("Z", "Y").to_euler()
     lamp.visible_glossy = mirrored
+    bpy.context.scene.collection.objects.link(lamp)
+
+
+def glimmer(at: tuple, colour: tuple, watts: float, size: float) -> None:
+    """Light that comes from a ball of radius `size` metres round `at`, which isn't seen itself."""
+    data = bpy.data.lights.new("glimmer", "POINT")
+    data.color, data.energy, data.shadow_soft_size = colour, watts, size
+    lamp = bpy.data.objects.new("glimmer", data)
+    lamp.location = at
+    lamp.visible_camera = False
     bpy.context.scene.collection.objects.link(lamp)
 
 
