@@ -36,7 +36,7 @@ def test_the_picture_proposes_a_flow(window):
     call(window, "open_picture", filepath=str(SAMPLE / "picture.png"))
     call(window, "add_layer", motion="flow")
     picture().layers[0].matte.form, picture().layers[0].matte.file = "file", str(SAMPLE / "mattes" / "water.png")
-    yield from window.see("Press Flow and draw", window.box("VIEW_3D", "UI"))
+    yield from window.see("Direction", window.box("VIEW_3D", "UI"))
     yield from window.until(lambda: sight() is not None and sight().proposed, 30, lambda: module("overlay.flow").problem)
     yield from window.screenshot("50-proposed")
     first = window.pixels(part(window, WATER)).astype(float)
@@ -47,7 +47,7 @@ def test_the_picture_proposes_a_flow(window):
 def test_strokes_say_where_it_flows(window):
     call(window, "draw_stroke", role="flow")
     yield from window.until(lambda: bpy.context.mode == "PAINT_GREASE_PENCIL", 10, "no draw mode")
-    yield from window.see("Draw the way that it flows", window.box("VIEW_3D", "UI"))
+    yield from window.see("Done", window.box("VIEW_3D", "UI"))
     for line in ALONG:
         yield from window.drag([on_screen(window, *place) for place in line])
     yield from window.until(lambda: sight() is not None and not sight().proposed, 30, lambda: module("overlay.flow").problem)
