@@ -167,6 +167,13 @@ def picture_pixels(path: Path, colour_space: str):
     return _engine.read(path, colour_space)
 
 
+def file_matte(path: Path, channel: str):
+    """How much of each pixel a matte's file says, height x width, 0 .. 1. Throws ValueError, OSError."""
+    from stillwater import _stillwater
+
+    return _stillwater.read_matte(str(path), channel)
+
+
 def painted_flow(strokes: list[dict], freeze: list[dict], refine: dict, picture, bound):
     """The flow that strokes say over a small picture, height x width x 2, px/frame; all in the picture's pixels.
 

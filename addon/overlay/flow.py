@@ -105,7 +105,14 @@ def sketched(picture, layer, stage) -> tuple[np.ndarray, float, np.ndarray | Non
         _pictures[key] = flow_field.small(engine.picture_pixels(path, stage.read["colour_space"]))
     pixels, scale = _pictures[key]
     cut = cutting.cut(layer.name, stage.live, stage.sketch, picture.picture_size[0]) if layer.matte.form != "none" else None
-    return pixels, scale, None if cut is None else flow_field.bound_of(cut.coverage, pixels.shape[:2])
+    coverage = cut.coverage if cut is not None else _filed_matte(layer, stage)
+    return pixels, scale, None if coverage is None else flow_field.bound_of(coverage, pixels.shape[:2])
+
+
+def _filed_matte(layer, stage) -> np.ndarray | None:
+    """The matte that a file says, before the layer is cut out: while no stroke says how it flows it can't be."""
+    said = next((each for each in stage.read["layers"] if each["name"] == layer.name), {}).get("matte") or {}
+    return engine.file_matte(stage.folder / said["file"], said["channel"]) if said.get("file") else None
 
 
 def proposal(picture, layer, stage) -> tuple[np.ndarray, float, np.ndarray | None]:

@@ -40,10 +40,12 @@ def _draw_brush(layout, scene) -> None:
 
 
 def _offered(picture, layer) -> list[roles.Role]:
-    """The roles that a layer has, and those that would cut it out where it must be; touch-ups once there is a hole."""
+    """The roles that a layer has, those of its motion first, and those that would cut it out where it must be; touch-ups
+    once there is a hole."""
     last = layer == picture.layers[-1]
     offered = [role for role in roles.of_layer(layer) if role.of != "fill.exemplar" or layer.matte.form != "none"]
-    return offered if last else [role for role in roles.ROLES if role in offered or roles.begins(layer, role)]
+    shown = offered if last else [role for role in roles.ROLES if role in offered or roles.begins(layer, role)]
+    return sorted(shown, key=lambda role: not role.motion)
 
 
 def _draw_role(context, layout, picture, layer, role: roles.Role) -> None:

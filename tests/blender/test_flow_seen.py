@@ -112,6 +112,23 @@ def test_without_strokes_the_proposal_is_seen_faintly(extension, scene, live):
     assert np.median(overlay.of(scene, live).field[..., 1]) < 0  # smoke up
 
 
+def test_a_proposal_keeps_to_a_matte_from_a_file(extension, scene, tmp_path, monkeypatch):
+    monkeypatch.setattr(extension.play.show, "seen", True)
+    layers = [{"name": "river", "matte": {"file": "matte.png"}, "motion": recipes.flowing()["layers"][0]["motion"]}, {"name": "sky"}]
+    path = stage.write(tmp_path / "lake", layers=layers)
+    bpy.ops.stillwater.load_recipe(filepath=str(path))
+    for role in ("flow", "speed"):
+        bpy.ops.stillwater.delete_strokes("EXEC_DEFAULT", True, role=role)
+    extension.play.show.forget()
+    extension.play.show.scene(scene)
+    sight = overlay.of(scene, scene.stillwater.active())
+    speed = np.hypot(*np.moveaxis(sight.field, 2, 0))
+    assert sight.proposed and speed[:, :9].max() > 0 and not speed[:, 11:].any()
+    overlay.forget()
+    extension.play.server.end()
+    extension.play.show.forget()
+
+
 def test_the_flow_plays_and_the_rest_does_not(extension, scene, live):
     show, seen = extension.play.show, []
     for frame in (5, 6, 8):
