@@ -32,7 +32,6 @@ def strokes() -> list[dict]:
 
 
 def rows():
-    import stillwater
     from scipy.interpolate import RBFInterpolator
     from stillwater import _stillwater as engine
     from stillwater.flow_painting import _flow_strokes
