@@ -24,32 +24,60 @@ PROPOSALS = [
 ]
 
 
-class STILLWATER_PG_flow(bpy.types.PropertyGroup):
-    """A fluid that moves for ever along painted strokes: rivers, waterfalls, smoke, fire, clouds."""
+# What a flow and an example have both.
 
-    speed: FloatProperty(
+
+def speed():
+    """How many times as fast as its strokes say."""
+    return FloatProperty(
         name="Speed", description="Factor of the speed that its strokes say; below 0 it flows backwards",
         default=1, min=-1000, soft_min=-4, max=1000, soft_max=4,
     )
+
+
+def refine_width():
+    """How widely the picture's streaks are looked at."""
+    return FloatProperty(
+        name="Refine Width", description="How widely streaks of the picture are looked at: wide is calm, narrow follows each [px]",
+        subtype="PIXEL", default=12, min=0, max=1000, soft_max=60, options=set(),
+    )
+
+
+def refine_amount():
+    """How much they turn the flow."""
+    return FloatProperty(
+        name="Refine", description="How much the picture's own streaks turn the flow (0..1)", subtype="FACTOR",
+        default=1, min=0, max=1, options=set(),
+    )
+
+
+def outline_moving():
+    """Whether the layer's outline goes along."""
+    return BoolProperty(
+        name="Moving Outline", description="The layer's outline moves with the flow", default=False, options=set()
+    )
+
+
+def outline_persistence():
+    """How long it keeps its shape."""
+    return FloatProperty(
+        name="Persistence", description="Share of the outline that lasts from frame to frame (0..1)", subtype="FACTOR",
+        default=0.9, min=0, max=1, options=set(),
+    )
+
+
+class STILLWATER_PG_flow(bpy.types.PropertyGroup):
+    """A fluid that moves for ever along painted strokes: rivers, waterfalls, smoke, fire, clouds."""
+
+    speed: speed()
     period: FloatProperty(
         name="Period", description="After which the flow begins anew: a long one follows it farther, a short one is sharper [frames]",
         default=60, min=0.001, soft_min=8, max=1e6, soft_max=240, options=set(),
     )
-    refine_width: FloatProperty(
-        name="Refine Width", description="How widely streaks of the picture are looked at: wide is calm, narrow follows each [px]",
-        subtype="PIXEL", default=12, min=0, max=1000, soft_max=60, options=set(),
-    )
-    refine_amount: FloatProperty(
-        name="Refine", description="How much the picture's own streaks turn the flow (0..1)", subtype="FACTOR",
-        default=1, min=0, max=1, options=set(),
-    )
-    outline_moving: BoolProperty(
-        name="Moving Outline", description="The layer's outline moves with the flow", default=False, options=set()
-    )
-    outline_persistence: FloatProperty(
-        name="Persistence", description="Share of the outline that lasts from frame to frame (0..1)", subtype="FACTOR",
-        default=0.9, min=0, max=1, options=set(),
-    )
+    refine_width: refine_width()
+    refine_amount: refine_amount()
+    outline_moving: outline_moving()
+    outline_persistence: outline_persistence()
     stroke_speed: FloatProperty(
         name="Stroke Speed", description="Speed that the next strokes say [px/frame]",
         default=2, min=0, max=1000, soft_max=20, options=set(),
@@ -84,22 +112,13 @@ class STILLWATER_PG_example(bpy.types.PropertyGroup):
         name="Clip Scale", description="Picture pixels for a pixel of the clip", default=1, min=0.001, soft_min=0.1, max=100,
         soft_max=4, options=set(),
     )
-    speed: FloatProperty(
-        name="Speed", description="Factor of the speed that its strokes say; below 0 it flows backwards",
-        default=1, min=-1000, soft_min=-4, max=1000, soft_max=4,
-    )
+    speed: speed()
     life: IntProperty(
         name="Life Time", description="How long a detail of the clip is carried along [frames]", default=16, min=1, max=1000,
         soft_max=64, options=set(),
     )
-    refine_width: FloatProperty(
-        name="Refine Width", description="How widely streaks of the picture are looked at: wide is calm, narrow follows each [px]",
-        subtype="PIXEL", default=12, min=0, max=1000, soft_max=60, options=set(),
-    )
-    refine_amount: FloatProperty(
-        name="Refine", description="How much the picture's own streaks turn the flow (0..1)", subtype="FACTOR",
-        default=1, min=0, max=1, options=set(),
-    )
+    refine_width: refine_width()
+    refine_amount: refine_amount()
     shutter: FloatProperty(
         name="Shutter", description="How long details are smeared along the flow, where they stand still [s]", default=0.2,
         min=0, max=100, soft_max=1, options=set(),
@@ -140,13 +159,8 @@ class STILLWATER_PG_example(bpy.types.PropertyGroup):
             ("best-first", "Best Below", "Those whose flow fits worst"),
         ],
     )
-    outline_moving: BoolProperty(
-        name="Moving Outline", description="The layer's outline moves with the flow", default=False, options=set()
-    )
-    outline_persistence: FloatProperty(
-        name="Persistence", description="Share of the outline that lasts from frame to frame (0..1)", subtype="FACTOR",
-        default=0.9, min=0, max=1, options=set(),
-    )
+    outline_moving: outline_moving()
+    outline_persistence: outline_persistence()
 
 
 CLASSES = [STILLWATER_PG_flow, STILLWATER_PG_example]
