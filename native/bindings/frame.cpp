@@ -54,7 +54,8 @@ Frame render(const FrameRenderer& renderer, const Moment& now, const Moment& aft
 using Endlesses = std::vector<std::pair<FloatArray, FloatArray>>;  // pixels and mean, of colours and of alpha
 
 Plates plates_of(const LayerImage& colour, const std::optional<LayerImage>& alpha, Size size, double scale,
-                 std::optional<Axes> drifting, const Endlesses& made, const std::vector<FloatArray>& flow, double longest) {
+                 std::optional<Axes> drifting, const Endlesses& made, const std::vector<FloatArray>& flow, double longest,
+                 const ExampleSetup* example, const ExampleLook* look) {
   std::vector<EndlessPixels> before;
   for (const auto& [pixels, mean] : made)
     before.push_back({as_image<cv::Vec4f>(pixels, "endless"), as_image<cv::Vec4f>(mean, "endless")});
@@ -65,7 +66,14 @@ Plates plates_of(const LayerImage& colour, const std::optional<LayerImage>& alph
   if (drifting) endless = Endless{drifting->first, drifting->second};
   return std::const_pointer_cast<LayerPlates>(
       make_plates(colour, alpha.value_or(LayerImage()), {size.first, size.second}, scale, endless,
-                  {before.empty() ? nullptr : &before[0], before.size() < 2 ? nullptr : &before[1]}, fields));
+                  {before.empty() ? nullptr : &before[0], before.size() < 2 ? nullptr : &before[1]}, fields,
+                  {example, look}));
+}
+
+ExampleLook look_of(const LayerPlates& plates, const Progress::Listener& progress) {
+  if (!plates.colour_example) throw BadInput("plates: made without a clip");
+  const py::gil_scoped_release release;
+  return plates.colour_example->make_look(Progress(progress));
 }
 
 void render_for_screen(const FrameRenderer& renderer, ExactArray& out, const Moment& now,
@@ -109,7 +117,8 @@ void bind_frame(py::module_& module) {
   py::class_<LayerPlates, Plates>(module, "LayerPlates", "A layer ready for any moment.");
   module.def("make_plates", &plates_of, py::arg("colour"), py::arg("alpha"), py::arg("size"), py::arg("scale"),
              py::arg("drifting"), py::arg("endless") = Endlesses(), py::arg("flow") = std::vector<FloatArray>(),
-             py::arg("longest") = 0.0);
+             py::arg("longest") = 0.0, py::arg("example") = nullptr, py::arg("look") = nullptr);
+  module.def("make_look", &look_of, py::arg("plates"), py::arg("progress") = Progress::Listener());
   module.def(
       "make_endless",
       [](const LayerImage& layer, Size size, double scale, Axes along, const Progress::Listener& progress) {

@@ -24,5 +24,6 @@ PYBIND11_MODULE(_stillwater, module) {
   stillwater::bind_flow(module);
   stillwater::bind_flow_painting(module);
   stillwater::bind_appearance(module);
+  stillwater::bind_example(module);
   stillwater::bind_frame(module);
 }

@@ -17,6 +17,7 @@ void bind_water(pybind11::module_& module);
 void bind_flow(pybind11::module_& module);
 void bind_flow_painting(pybind11::module_& module);
 void bind_appearance(pybind11::module_& module);
+void bind_example(pybind11::module_& module);
 void bind_frame(pybind11::module_& module);
 
 }  // namespace stillwater

@@ -17,6 +17,7 @@
 namespace stillwater {
 
 using Rgba = cv::Mat_<cv::Vec4f>;   ///< H x W, premultiplied red, green, blue, alpha
+using Rgb = cv::Mat_<cv::Vec3f>;    ///< H x W, red, green, blue: opaque, or differences of colours
 using Plane = cv::Mat_<float>;      ///< H x W, a matte or any single quantity
 using Field = cv::Mat_<cv::Vec2f>;  ///< H x W, (x, y) in pixels
 using Labels = cv::Mat_<int>;       ///< H x W, label map

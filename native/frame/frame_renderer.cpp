@@ -69,6 +69,9 @@ void FrameRenderer::check(const std::vector<LayerSetup>& layers) const {
     const bool flows = layers[i].plates && layers[i].plates->colour_flow;
     if (std::holds_alternative<Flow>(layers[i].motion) && !flows && !box_of(layers[i]).empty())
       throw BadInput(place + ".plates: made without a flow");
+    const bool filmed = layers[i].plates && layers[i].plates->colour_example;
+    if (std::holds_alternative<ExampleNow>(layers[i].motion) && !filmed && !box_of(layers[i]).empty())
+      throw BadInput(place + ".plates: made without a clip");
   }
 }
 
@@ -96,6 +99,9 @@ FrameRenderer::LayerMotions FrameRenderer::motions_of(const FrameNumbers& now, c
     if (const auto* flow = std::get_if<Flow>(&now.layers[i].motion); flow && flowing) {
       check_flow(*flow, flowing->paths().fields());
       motions.push_back(flowing->at(*flow));
+    } else if (const auto* example = std::get_if<ExampleNow>(&now.layers[i].motion);
+               example && plates.colour_example && !of_alpha && now.layers[i].opacity > 0) {
+      motions.push_back(plates.colour_example->at(*example));
     } else {
       motions.push_back(fade && placed[i].second_share > 0 ? fade->at(plate, placed[i], travel[i])
                                                            : displaced_layer(plate, placed[i], travel[i]));

@@ -43,7 +43,10 @@ void Motions::order_layers() {
     }
     if (bobs && (layers_[i].water < 0 || !std::holds_alternative<Ripple>(layers_[layers_[i].water].numbers)))
       throw BadInput(place_of(i) + ".water: not the index of a ripple layer");
-    const auto flows = [&](int layer) { return std::holds_alternative<Flow>(layers_[layer].numbers); };
+    const auto flows = [&](int layer) {
+      const MotionNumbers& numbers = layers_[layer].numbers;
+      return std::holds_alternative<Flow>(numbers) || std::holds_alternative<ExampleNow>(numbers);
+    };
     if (layers_[i].follows >= 0 && (flows(i) || flows(layers_[i].follows)))
       throw BadInput(place_of(i) + ".follows: a flow neither follows nor is followed");
     seen[i] = 2;

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "example/carried_residuals.h"
 #include "flow/flow_cycle.h"
 #include "layers/displacement.h"
 #include "motion/bob.h"
@@ -15,9 +16,9 @@
 
 namespace stillwater {
 
-/// What moves one layer, with the numbers of one moment; monostate: nothing. A Flow displaces nothing: frame/flowing_layer.h
-/// makes its colours.
-using MotionNumbers = std::variant<std::monostate, Sway, Ripple, Bob, Drift, Flow>;
+/// What moves one layer, with the numbers of one moment; monostate: nothing. A Flow and an ExampleNow displace
+/// nothing: frame/flowing_layer.h and frame/example_layer.h make their colours.
+using MotionNumbers = std::variant<std::monostate, Sway, Ripple, Bob, Drift, Flow, ExampleNow>;
 
 /// What is fixed about one layer's motion.
 struct MotionSetup {

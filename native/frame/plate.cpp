@@ -9,7 +9,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "flow/streamline.h"
+#include "frame/box_pixels.h"
 #include "layers/cyclic.h"
 #include "layers/inpainting/cyclic_by_exemplars.h"
 
@@ -120,34 +120,10 @@ EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double out
   return endless_pixels(scaled_layer(layer, picture, output_scale), picture, output_scale, along, std::move(progress));
 }
 
-namespace {
-
-// Fields of a layer's box as they are in the pixels of its plate.
-std::vector<Field> scaled_fields(const std::vector<Field>& velocities, const Plate& plate) {
-  std::vector<Field> scaled;
-  for (const Field& velocity : velocities) {
-    check::not_empty("flow", velocity);
-    if (velocity.size() != plate.box.size()) throw BadInput("flow: a field that does not fit the layer's box");
-    const cv::Size size(plate.source.width(), plate.source.height());
-    if (plate.scale == 1) {
-      scaled.push_back(velocity.clone());
-      continue;
-    }
-    const SteadyFlow flow(velocity);
-    Field& field = scaled.emplace_back(size);
-    parallel_pixels(size, [&](int y, int x) {
-      const double picture_x = (x + plate.origin.x + 0.5) / plate.scale, picture_y = (y + plate.origin.y + 0.5) / plate.scale;
-      field(y, x) = plate.scale * flow.at(picture_x - plate.box.x - 0.5, picture_y - plate.box.y - 0.5);
-    });
-  }
-  return scaled;
-}
-
-}  // namespace
-
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
                                                double output_scale, std::optional<Endless> drifting,
-                                               MadeBefore before, const FlowFields& flow) {
+                                               MadeBefore before, const FlowFields& flow,
+                                               const ExampleFilm& example) {
   check_box("colour", colour, picture);
   check_box("alpha", alpha, picture);
   auto plates = std::make_shared<LayerPlates>();
@@ -177,6 +153,8 @@ std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const L
     plates->colour_flow = std::make_unique<FlowingPlate>(plates->colour, paths, true);
     if (!alpha.box.empty()) plates->alpha_flow = std::make_unique<FlowingPlate>(plates->alpha, paths, false);
   }
+  if (example.setup && !colour.box.empty())
+    plates->colour_example = std::make_unique<ExamplePlate>(plates->colour, *example.setup, example.look);
   return plates;
 }
 

@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "frame/cross_fade.h"
 #include "frame/displaced_layer.h"
+#include "frame/example_plate.h"
 #include "frame/flowing_plate.h"
 #include "layers/layer_image.h"
 
@@ -41,6 +42,7 @@ struct LayerPlates {
   Plate colour, alpha;              ///< alpha: of the picture's own, as a grey picture; empty where it has none
   std::unique_ptr<const CrossFade> colour_fade, alpha_fade;  ///< of a layer that drifts; they belong to these plates
   std::unique_ptr<const FlowingPlate> colour_flow, alpha_flow;  ///< of a layer that flows, likewise
+  std::unique_ptr<const ExamplePlate> colour_example;  ///< of a layer that flows like a clip; its alpha stands still
 };
 
 /// What make_endless() gave for a layer that drifts, where that was called before.
@@ -55,11 +57,18 @@ struct FlowFields {
   double longest = 0;             ///< longest way that its Flow ever has, frames at speed 1
 };
 
+/// What moves a layer that flows like a clip; null: it does not.
+struct ExampleFilm {
+  const ExampleSetup* setup = nullptr;
+  const ExampleLook* look = nullptr;  ///< made before, by ExamplePlate::make_look() of plates without one
+};
+
 /// Throws BadInput where a box does not fit its pixels or the picture, a field not the box, or what was made before not the
 /// layer.
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
                                                double output_scale, std::optional<Endless> drifting,
-                                               MadeBefore before = {}, const FlowFields& flow = {});
+                                               MadeBefore before = {}, const FlowFields& flow = {},
+                                               const ExampleFilm& example = {});
 
 /// Length of one period of an endless layer's plate along x and y, in picture pixels.
 Point plate_period(cv::Size picture, double output_scale);

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from .engines import without_engine
-from .fluids import Flow
+from .fluids import Example, Flow
 from .keyframes import Keyframes
 from .mattes import ExemplarFill
 from .picture import Layer, Recipe
@@ -67,19 +67,19 @@ def _layer(recipe: Recipe, i: int, layer: Layer) -> Iterator[str]:
             yield from _known_layer(recipe, f"{place}.motion.water", water, Ripple)
         case Drift(velocity=velocity, wind=wind) if velocity is not None and wind != 0.5:
             yield f"{place}.motion: velocity and wind are both given (only one of them can hold)"
-        case Flow() as flow:
-            yield from _directions(flow, f"{place}.motion.strokes")
+        case Flow() | Example() as fluid:
+            yield from _directions(fluid, f"{place}.motion.strokes")
 
 
 def _no_flow_in_it(recipe: Recipe, place: str, layer: Layer) -> Iterator[str]:
-    if isinstance(layer.motion, Flow):
+    if isinstance(layer.motion, Flow | Example):
         yield f"{place}.follows: a layer that flows follows no other (its outline stands still)"
     led = next((other for other in recipe.layers if other.name == layer.follows.layer), None)
-    if led is not None and isinstance(led.motion, Flow):
+    if led is not None and isinstance(led.motion, Flow | Example):
         yield f'{place}.follows.layer: "{led.name}" is not a layer that can be followed (it flows: its outline stands still)'
 
 
-def _directions(flow: Flow, place: str) -> Iterator[str]:
+def _directions(flow: Flow | Example, place: str) -> Iterator[str]:
     """At every frame some stroke must say where the flow goes."""
     if not flow.strokes:
         yield f"{place}: none; where does the layer flow? (at least one is needed)"

@@ -18,13 +18,12 @@ class Transfer(Part):
     strokes: list[CloneStroke] = []
 
 
-class Flow(Part, tag="flow"):
-    """A fluid that moves along painted strokes, without footage."""
+class _Painted(Part):
+    """What flow and example share: a flow painted with strokes, some of which may hold from a frame on."""
 
     strokes: list[FlowStroke] = []
     refine: Refine = Refine()
     speed: animated(number("factor of the speed", ge=-1000, le=1000)) = 1.0
-    period: number("after which the flow begins anew", "frames", gt=0, le=1e6) = 60.0
     freeze: choice(list[Stroke], "what stays where it is") = []
     outline: Outline | None = None
 
@@ -38,12 +37,15 @@ class Flow(Part, tag="flow"):
         ]
 
 
-class _Look(Part):
+class Flow(_Painted, tag="flow"):
+    """A fluid that moves along painted strokes, without footage."""
+
+    period: number("after which the flow begins anew", "frames", gt=0, le=1e6) = 60.0
+
+
+class _Look(_Painted):
     """What example and library share: the look of a fluid that comes from clips."""
 
-    strokes: list[FlowStroke] = []
-    refine: Refine = Refine()
-    speed: animated(number("factor of the speed", ge=-1000, le=1000)) = 1.0
     shutter: number("motion blur of the approximated average", "s", ge=0, le=100) = 0.2
     average_blur: number("blur of the approximated average (sigma)", "px", ge=0, le=1000) = 8.0
     grid: choice(Grid | None, "cells of the histogram matching; null = of about 55 px") = None
@@ -51,7 +53,6 @@ class _Look(Part):
     matching: choice(Literal["steerable", "laplacian", "none"], "pyramid of the histogram matching") = "steerable"
     clip_scale: number("picture pixels for a pixel of the clip", gt=0, le=100) = 1.0
     clip_fps: choice(number("frames per second of the clip", "1/s", gt=0, le=1000) | None, "null = the file's") = None
-    outline: Outline | None = None
     endless: choice(bool, "goes on for ever") = True
     stylize: number("how strongly the picture's look is put back", ge=0, le=1) = 1.0
 

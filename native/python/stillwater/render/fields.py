@@ -42,6 +42,17 @@ def _stroke(stroke: FlowStroke):
     )
 
 
+def frozen_part(size: tuple[int, int], box: tuple, strokes: list[Stroke], place: str) -> np.ndarray | None:
+    """What strokes hold still of a box (x, y, width, height): float32, box height x box width, 0..1; None: nothing. Throws
+    RecipeError."""
+    try:
+        frozen = _freeze(size, strokes, place)
+    except engine.BadInput as error:
+        raise RecipeError(f"{place}.{error}") from None
+    x, y, width, height = box
+    return None if frozen is None else np.ascontiguousarray(frozen[y : y + height, x : x + width])
+
+
 def _freeze(size: tuple[int, int], strokes: list[Stroke], place: str) -> np.ndarray | None:
     if not strokes:
         return None

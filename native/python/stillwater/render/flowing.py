@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 
 from ..recipe.animation import Loop, Track
-from ..recipe.fluids import Flow
+from ..recipe.fluids import Example, Flow
 from ..recipe.strokes import FlowStroke, Refine, Stroke
 
 MOST_WAYS = 256  # numbers that say a speed that changes, over one period
@@ -38,6 +38,37 @@ class FlowNow(msgspec.Struct, frozen=True, tag="flow"):
     share: float
 
 
+class PaintedFields:
+    """The fields that a layer's strokes say, and between which of them it is at a frame. `paintings`: by their digests."""
+
+    def __init__(self, motion: Flow | Example, loop: Loop | None):
+        self._loop = loop
+        drawn = [(frame, Painting(strokes, motion.refine, motion.freeze)) for frame, strokes in motion.drawn()]
+        self.paintings = {painting.digest: painting for _, painting in drawn}
+        self._keys = self._placed([frame for frame, _ in drawn], [painting.digest for _, painting in drawn])
+
+    def at(self, frame: int) -> tuple[tuple[str, str], float]:
+        """The digests of two paintings, and the share of the second. In a loop `frame` lies in it."""
+        keys = self._keys
+        after = next((i for i, (at, _) in enumerate(keys) if at > frame), len(keys))
+        if after == 0 or after == len(keys):
+            digest = keys[0 if after == 0 else -1][1]
+            return (digest, digest), 0.0
+        (start, field), (end, following) = keys[after - 1], keys[after]
+        return (field, field if frame == start else following), (frame - start) / (end - start)
+
+    def _placed(self, frames: list, digests: list[str]) -> list[tuple[int, str]]:
+        """Each painting's frame; in a loop the first once more, where it comes round again."""
+        if len(digests) == 1:
+            return [(1, digests[0])]
+        if not self._loop:
+            return list(zip(frames, digests, strict=True))
+        first, period = self._loop.first, self._loop.period
+        inside = sorted((first + (frame - first) % period, digest) for frame, digest in zip(frames, digests, strict=True))
+        (start, opening), (end, closing) = inside[0], inside[-1]
+        return [(end - period, closing), *inside, (start + period, opening)]
+
+
 class FlowTrack:
     """A flow's numbers at any frame. In a loop the period is one that fits a whole number of times."""
 
@@ -45,10 +76,8 @@ class FlowTrack:
         self._loop, self._speed = loop, Track.of(flow.speed, loop)
         self._turns = max(1, round(loop.period / flow.period)) if loop else 0
         self._period = loop.period / self._turns if loop else flow.period
-        drawn = flow.drawn()
-        self.paintings = {(made := Painting(strokes, flow.refine, flow.freeze)).digest: made for _, strokes in drawn}
-        digests = [Painting(strokes, flow.refine, flow.freeze).digest for _, strokes in drawn]
-        self._keys = self._placed([frame for frame, _ in drawn], digests)
+        self._fields = PaintedFields(flow, loop)
+        self.paintings = self._fields.paintings
         way = self._period / 2 * float(np.abs(self._speed.values).max())
         self.longest = 2.0 ** math.ceil(math.log2(way)) if way > 0 else 0.0  # rarely another one where the speed is changed
 
@@ -60,7 +89,7 @@ class FlowTrack:
         else:
             cycle = (frame - 1) % self._period / self._period
         step = self._speed.integral(frame + 1) - self._speed.integral(frame)
-        return FlowNow(cycle, self._ways(frame), step, self.longest, *self._fields(frame))
+        return FlowNow(cycle, self._ways(frame), step, self.longest, *self._fields.at(frame))
 
     def _ways(self, frame: int) -> tuple[float, ...]:
         half = self._period / 2
@@ -75,23 +104,3 @@ class FlowTrack:
         whole = math.floor(frame)
         before = self._speed.integral(whole)
         return before + (frame - whole) * (self._speed.integral(whole + 1) - before)
-
-    def _placed(self, frames: list, digests: list[str]) -> list[tuple[int, str]]:
-        """Each painting's frame; in a loop the first once more, where it comes round again."""
-        if len(digests) == 1:
-            return [(1, digests[0])]
-        if not self._loop:
-            return list(zip(frames, digests, strict=True))
-        first, period = self._loop.first, self._loop.period
-        inside = sorted((first + (frame - first) % period, digest) for frame, digest in zip(frames, digests, strict=True))
-        (start, opening), (end, closing) = inside[0], inside[-1]
-        return [(end - period, closing), *inside, (start + period, opening)]
-
-    def _fields(self, frame: int) -> tuple[tuple[str, str], float]:
-        keys = self._keys
-        after = next((i for i, (at, _) in enumerate(keys) if at > frame), len(keys))
-        if after == 0 or after == len(keys):
-            digest = keys[0 if after == 0 else -1][1]
-            return (digest, digest), 0.0
-        (start, field), (end, following) = keys[after - 1], keys[after]
-        return (field, field if frame == start else following), (frame - start) / (end - start)

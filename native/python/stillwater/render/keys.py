@@ -10,6 +10,7 @@ import hashlib
 import msgspec
 
 from ..recipe import Recipe
+from ..recipe.fluids import Example
 from ..recipe.mattes import ExemplarFill, FileFill, FileMatte, LabelMatte, TrimapMatte
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
 from .resolve import Now, Timeline
@@ -26,6 +27,9 @@ ENGINES = {
     "bob": 1,
     "drift": 3,
     "flow": 1,
+    "clip": 1,
+    "appearance": 1,
+    "example": 1,
 }
 
 
@@ -56,8 +60,9 @@ def stack_key(recipe: Recipe, digests: dict[str, str]) -> str:
 class FrameKeys:
     """The keys of a recipe's frames, written at `scale` into files of one kind."""
 
-    def __init__(self, timeline: Timeline, stack: str, size: tuple[int, int], scale: float):
-        self._timeline = timeline
+    def __init__(self, timeline: Timeline, stack: str, size: tuple[int, int], scale: float, digests: dict[str, str]):
+        """`digests`: the hash of each file the recipe names."""
+        self._timeline, self._digests = timeline, digests
         recipe = timeline.recipe
         self._needed = needed_layers(recipe)
         kinds = {type(recipe.layers[i].motion) for i in self._needed}
@@ -65,6 +70,7 @@ class FrameKeys:
         self._has_time = bool(kinds & {Ripple, Sway})
         self._drifts_in_loop = recipe.loop and Drift in kinds
         motions = {kind.__struct_config__.tag for kind in kinds} | ({"wind"} if self._has_time else set())
+        motions |= {"flow", "clip", "appearance"} if Example in kinds else set()
         output = recipe.output
         self.fixed = {
             "stack": stack,
@@ -106,7 +112,10 @@ class FrameKeys:
         follows = layer.follows and [place[layer.follows.layer], layer.follows.mirror]
         water = place[layer.motion.water] if isinstance(layer.motion, Bob) else None
         endless = self._timeline.endless[i]
-        return {"visible": layer.visible, "follows": follows, "water": water, "endless": endless}
+        facts = {"visible": layer.visible, "follows": follows, "water": water, "endless": endless}
+        if (track := self._timeline.films[i]) is not None:
+            facts["film"] = film_facts(track.example, self._digests, self._timeline.recipe)
+        return facts
 
     def _view(self):
         recipe = self._timeline.recipe
@@ -150,6 +159,13 @@ def matte_facts(matte, digests: dict[str, str]):
         case TrimapMatte():
             return ["trimap", digests[matte.trimap], matte.method]
     return ["drawn", matte]
+
+
+def film_facts(example: Example, digests: dict[str, str], recipe: Recipe):
+    """All of a film that does not change from frame to frame: the clip by what it holds, its strokes by its fields."""
+    moving = ("clip", "strokes", "refine", "freeze", "speed", "outline")
+    look = [getattr(example, name) for name in example.__struct_fields__ if name not in moving]
+    return [digests[example.clip], look, recipe.fps, recipe.frames if recipe.loop else None]
 
 
 def fill_facts(fill, digests: dict[str, str]):

@@ -14,8 +14,9 @@ from .. import _stillwater as engine
 from ..recipe import parse
 from . import preview
 from .cache import FOLDER, Cache, Prepared
-from .endless import Canvas, keys_of, ways_of
-from .prepare import check_view
+from .prepare import check_view, digests_of
+from .filming import Pace
+from .ready import Canvas, Way, keys_of, pace_of, ways_of
 from .renderer import frame_renderer, numbers
 from .resolve import Timeline
 
@@ -35,7 +36,8 @@ class Live:
         self._learnt: dict[str, list] = {}
         self._key = ""
         self._preview: Prepared | None = None
-        self._plates: dict[tuple, engine.LayerPlates] = {}
+        self._plates: dict[Way, tuple[engine.LayerPlates, Pace | None]] = {}
+        self._paces: list[Pace | None] = []
         self._timeline: Timeline | None = None
         self._renderer: engine.FrameRenderer | None = None
         self._pixels = np.zeros((0, 0, 4), np.float32)
@@ -83,11 +85,14 @@ class Live:
         small = preview.reduced(document.recipe, layers.facts["scale"])
         check_view(small, layers.facts["colour"])
         timeline = Timeline(small)
-        plates = self._plates_for(key, layers, ways_of(timeline), self._plates if same else {})
+        ways = ways_of(timeline, digests_of(document, self._cache.known))
+        plates = self._plates_for(key, layers, ways, timeline, self._plates if same else {})
         if plates is None:
             return False
         size, has_alpha = tuple(layers.facts["size"]), layers.facts["has_alpha"]
-        self._renderer = frame_renderer(timeline, list(plates.values()), size, 1.0, has_alpha=has_alpha)
+        paces = [plates[way][1] for way in ways]
+        self._renderer = frame_renderer(timeline, [plates[way][0] for way in ways], size, 1.0, paces, has_alpha=has_alpha)
+        self._paces = paces
         self._key, self._preview, self._plates, self._timeline = key, layers, plates, timeline
         return True
 
@@ -182,19 +187,19 @@ class Live:
     def _numbers(self, frame: int) -> tuple:
         if self._timeline is None:
             raise engine.BadInput("live: no recipe was taken yet")
-        return numbers(self._timeline, frame)
+        return numbers(self._timeline, frame, self._paces)
 
     def _index(self, layer: str) -> int:
         if layer not in self.layers:
             raise engine.BadInput(f'layer: "{layer}" is not one of {", ".join(self.layers) or "none"}')
         return self.layers.index(layer)
 
-    def _plates_for(self, key: str, layers: Prepared, ways: list, made: dict) -> dict | None:
-        """Plates for each way, those that are there already taken over; None where a part is not prepared."""
+    def _plates_for(self, key: str, layers: Prepared, ways: list[Way], timeline: Timeline, made: dict) -> dict | None:
+        """Plates and pace for each way, those that are there already taken over; None where a part is not prepared."""
         missing = [way for way in ways if way not in made]
         ready = {way: [self._cache.find(each) for each in keys_of(key, way)] for way in missing}
         if any(None in found for found in ready.values()):
             return None
         canvas = Canvas(key, layers, tuple(layers.facts["size"]))
-        new = {way: canvas.plates(way, ready[way]) for way in missing}
+        new = {way: (canvas.plates(way, ready[way], timeline), pace_of(timeline, way, ready[way])) for way in missing}
         return {way: made.get(way) or new[way] for way in ways}

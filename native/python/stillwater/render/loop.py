@@ -15,7 +15,6 @@ from .. import _stillwater as engine
 from ..recipe import Document, Recipe
 from .cache import FOLDER, LIMIT, Cache, Prepared
 from .claim import claim_frames
-from .endless import Canvas, make_ready
 from .errors import Failed, Refused
 from .events import Done, Event, Frame, Preparing, Started, Warn
 from .keys import FrameKeys
@@ -23,6 +22,7 @@ from .lock import Lock
 from .movie import Movie
 from .prepare import LARGEST_SIDE, Sources, boxes_of, check_view
 from .reads import Reads, mark, read_mark
+from .ready import Canvas, make_ready
 from .renderer import Renderer, eight_bit
 from .resolve import Timeline
 from .stack import cut, find_stack
@@ -57,7 +57,7 @@ class Job:
         self.cache = Cache(order.cache or document.folder / FOLDER, order.cache_limit or LIMIT)
         self.sources = Sources(document, self.cache)
         self.size = frame_size(self.sources.size, self.scale)
-        self.keys = FrameKeys(self.timeline, self.sources.key, self.sources.size, self.scale)
+        self.keys = FrameKeys(self.timeline, self.sources.key, self.sources.size, self.scale, self.sources.digests)
         self.reads = Reads(self.timeline, self.sources.digests, self.keys.fixed)
         self.stack: Prepared | None = None if order.fresh else find_stack(self.cache, self.sources.key)
         self.images = None
@@ -95,7 +95,9 @@ class Job:
         fresh = self.stack is None
         yield from self.prepare(claim)
         canvas = Canvas(self.sources.key, self.stack, self.sources.size, self.scale)
-        ready = yield from make_ready(canvas, self.timeline, self.cache, canvas.key, claim.beat)
+        ready = yield from make_ready(
+            canvas, self.timeline, self.document, self.sources.digests, self.cache, canvas.key, claim.beat
+        )
         if fresh:
             yield Preparing(1, "done")
         self.stack = None  # the renderer has a copy

@@ -11,8 +11,8 @@ import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe.mattes import FileFill, LabelMatte
-from .endless import keys_of, ways_of
 from .fills import Exemplar
+from .ready import keys_of, ways_of
 
 PROCESS = 170e6  # Python and the engine's libraries
 RGBA, PLANE = 16, 4  # bytes a pixel
@@ -96,7 +96,7 @@ def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
     canvas = RGBA * job.sources.size[0] * job.sources.size[1]
     cut, ready, at_work = 0.0, 0.0, canvas if shrunk < 1 else 0.0
-    ways = ways_of(job.timeline)
+    ways = ways_of(job.timeline, job.sources.digests)
     layers = zip(job.recipe.layers, boxes, job.timeline.endless, job.timeline.flows, ways, strict=True)
     for layer, box, endless, flow, way in layers:
         cut += RGBA * _area(box)

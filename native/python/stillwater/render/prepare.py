@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe import Document, Recipe, RecipeError
+from ..recipe.fluids import Example
 from ..recipe.mattes import ExemplarFill, FileFill, Matte
 from ..recipe.picture import Layer
 from ..recipe.stochastic import Ripple
@@ -150,6 +151,8 @@ def _files(recipe: Recipe) -> Iterator[tuple[str, str]]:
     """Every file that the recipe names, with its place."""
     yield "picture", recipe.picture
     for i, layer in enumerate(recipe.layers):
+        if isinstance(layer.motion, Example):
+            yield f"layers[{i}].motion.clip", layer.motion.clip
         yield from _matte_file(f"layers[{i}].matte", layer.matte)
         if i + 1 == len(recipe.layers):
             return
@@ -169,7 +172,7 @@ def _why(error: OSError) -> str:
     if isinstance(error, FileNotFoundError):
         return "there is no such file"
     if isinstance(error, IsADirectoryError):
-        return "is a folder, not an image"
+        return "is a folder, not a file"
     return os.strerror(error.errno) if error.errno else str(error)
 
 

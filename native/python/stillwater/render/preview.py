@@ -1,6 +1,6 @@
 """The layers of a recipe at the size of a screen: a preparation, so that whoever shows frames makes none.
 
-`prepare` makes it, as slowly as it must; whoever knows `key_of`, and endless.py's `keys_of`, finds it, and reads no
+`prepare` makes it, as slowly as it must; whoever knows `key_of`, and ready.py's `keys_of`, finds it, and reads no
 file but the cache's.
 """
 
@@ -11,18 +11,21 @@ from msgspec.structs import replace
 
 from .. import _stillwater as engine
 from ..recipe import Document, Recipe
-from ..recipe.fluids import Flow
+from ..recipe.fluids import Example, Flow
 from ..recipe.parts import Keys
 from ..recipe.stochastic import Bob, Drift, Sway
 from .cache import Cache, Prepared
-from .endless import Canvas, make_ready, parts_of
 from .errors import Failed
 from .events import Event, Preparing, Ready
 from .keys import ENGINES, hashed, stack_key
 from .loop import frame_size
 from .prepare import Sources, digests_of
+from .ready import Canvas, make_ready, parts_of
 from .resolve import Timeline
 from .stack import forget_stack, layer_images, layers_of
+
+
+SMALLEST_PATCH = 4  # px, of a film's transfer
 
 
 def key_of(document: Document, cache: Cache, longest: int) -> str | None:
@@ -56,7 +59,8 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
                 cache.store(key, Prepared(small.arrays, {**small.facts, "of": sources.key}))
     if (small := cache.find(key)) is not None:
         timeline = Timeline(reduced(document.recipe, small.facts["scale"]))
-        yield from make_ready(Canvas(key, small, tuple(small.facts["size"])), timeline, cache, sources.key, beat)
+        canvas = Canvas(key, small, tuple(small.facts["size"]))
+        yield from make_ready(canvas, timeline, document, sources.digests, cache, sources.key, beat)
     cache.keep_digests()
     if cache.trouble:
         raise Failed(cache.trouble)
@@ -119,12 +123,30 @@ def _reduced_motion(motion, scale: float):
             return replace(motion, velocity=replace(keys, values=[_scaled(value, scale) for value in keys.values]))
         case Drift():
             return replace(motion, velocity=_scaled(motion.velocity, scale))
-        case Flow():
+        case Flow() | Example():
             strokes = [replace(_reduced_stroke(stroke, scale), speed=stroke.speed * scale) for stroke in motion.strokes]
             refine = replace(motion.refine, width=motion.refine.width * scale)
             freeze = [_reduced_stroke(stroke, scale) for stroke in motion.freeze]
-            return replace(motion, strokes=strokes, refine=refine, freeze=freeze)
+            small = replace(motion, strokes=strokes, refine=refine, freeze=freeze)
+            return _quick_look(small, scale) if isinstance(small, Example) else small
     return motion
+
+
+def _quick_look(motion: Example, scale: float) -> Example:
+    """A film that looks nearly the same, and takes a fraction of the time."""
+    transfer = motion.transfer
+    strokes = [
+        replace(stroke, target=[_scaled(place, scale) for place in stroke.target], width=stroke.width * scale)
+        for stroke in transfer.strokes
+    ]
+    return replace(
+        motion,
+        transfer=replace(transfer, patch=max(SMALLEST_PATCH, round(transfer.patch * scale)), strokes=strokes),
+        clip_scale=motion.clip_scale * scale,
+        average_blur=motion.average_blur * scale,
+        matching="none" if motion.matching == "none" else "laplacian",
+        repetitions=min(motion.repetitions, 1),
+    )
 
 
 def _reduced_stroke(stroke, scale: float):

@@ -10,9 +10,9 @@ from pathlib import Path
 import msgspec
 
 from .. import _stillwater as engine
-from ..recipe.fluids import Flow
+from ..recipe.fluids import Example, Flow
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
-from .keys import fill_facts, hashed, matte_facts, needed_layers
+from .keys import fill_facts, film_facts, hashed, matte_facts, needed_layers
 from .resolve import Timeline
 
 # part -> digest; "layers": name -> part -> digest; "engines": name -> version
@@ -32,14 +32,14 @@ class Reads:
     """What the frames of a recipe read. `digests`: the hash of each file; `fixed`: what shapes the frames' files."""
 
     def __init__(self, timeline: Timeline, digests: dict[str, str], fixed: dict):
-        self._timeline = timeline
+        self._timeline, self._digests = timeline, digests
         recipe = timeline.recipe
         self._needed = needed_layers(recipe)
         motions = [recipe.layers[i].motion for i in self._needed]
         self._has_time = any(isinstance(motion, Ripple | Sway) for motion in motions)
         self._is_blown = any(isinstance(motion, Drift) and motion.velocity is None for motion in motions)
         seeds = [recipe.wind.seed, *(motion.seed for motion in motions if isinstance(motion, Ripple | Sway))]
-        goes_round = recipe.loop and any(isinstance(motion, Drift | Flow) for motion in motions)
+        goes_round = recipe.loop and any(isinstance(motion, Drift | Flow | Example) for motion in motions)
         self._fixed = {
             "engines": fixed["engines"],
             "picture": _digest([digests[recipe.picture], recipe.colour_space, fixed["size"]]),
@@ -80,7 +80,8 @@ class Reads:
         else:
             motions = [state.motion for state in states]
         seen = [state.opacity for state in states] if layer.visible else None
-        motion = _digest([motions, layer.follows, water, self._timeline.endless[i]])
+        film = film_facts(layer.motion, self._digests, self._timeline.recipe) if isinstance(layer.motion, Example) else None
+        motion = _digest([motions, layer.follows, water, self._timeline.endless[i], film])
         return {"motion": motion, "visibility": _digest(seen)}
 
     def _wind(self, frame: int):

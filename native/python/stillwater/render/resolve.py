@@ -10,10 +10,11 @@ import msgspec
 
 from ..recipe import Recipe
 from ..recipe.animation import Loop, Track, combine, ends_differ
-from ..recipe.fluids import Flow
+from ..recipe.fluids import Example, Flow
 from ..recipe.parts import Keys
 from ..recipe.picture import Layer
 from ..recipe.stochastic import Bob, Drift, Ripple, Still, Sway
+from .filming import ExampleNow, ExampleTrack
 from .flowing import FlowNow, FlowTrack
 
 
@@ -50,7 +51,7 @@ class LayerNow(msgspec.Struct, frozen=True):
     """A layer at a frame; its motion is the recipe's, with plain numbers and its seed in place."""
 
     opacity: float
-    motion: Still | Sway | Ripple | Bob | DriftNow | FlowNow
+    motion: Still | Sway | Ripple | Bob | DriftNow | FlowNow | ExampleNow
 
 
 class Now(msgspec.Struct, frozen=True):
@@ -72,8 +73,10 @@ class Timeline:
         self._away = combine(lambda v, a: v * math.sin(math.radians(a)), self._speed, self._direction)
         self._wind_seed = seed_of(recipe, "wind") if wind.seed is None else wind.seed
         self._opacities = [self._track(layer.opacity) for layer in recipe.layers]
-        self.flows = [FlowTrack(layer.motion, self.loop) if isinstance(layer.motion, Flow) else None for layer in recipe.layers]
-        self._motions = [flow.at if flow else self._motion(layer) for layer, flow in zip(recipe.layers, self.flows, strict=True)]
+        motions = [layer.motion for layer in recipe.layers]
+        self.flows = [FlowTrack(motion, self.loop) if isinstance(motion, Flow) else None for motion in motions]
+        self.films = [ExampleTrack(motion, self.loop) if isinstance(motion, Example) else None for motion in motions]
+        self._motions = [self._motion(i, layer) for i, layer in enumerate(recipe.layers)]
         self.endless = [self._endless(layer) for layer in recipe.layers]
 
     def at(self, frame: int) -> Now:
@@ -103,8 +106,11 @@ class Timeline:
         period = self.loop.period if self.loop else 0
         return MomentNow(frame, fps, self.loop.first if self.loop else 1, period, wind, loop_travel)
 
-    def _motion(self, layer: Layer):
+    def _motion(self, i: int, layer: Layer):
         """The layer's motion as a function of the frame."""
+        track = self.flows[i] or self.films[i]
+        if track is not None:
+            return track.at
         if isinstance(layer.motion, Drift):
             return self._drift(layer.motion)
         still = layer.motion
