@@ -9,6 +9,7 @@
 #include "example/carried_residuals.h"
 #include "example/local_contrast.h"
 #include "example/match_patches.h"
+#include "example/sample_differences.h"
 #include "frame/example_plate.h"
 
 namespace stillwater {
@@ -83,10 +84,11 @@ struct Carried {
 };
 
 std::unique_ptr<Carried> carried(const py::array& residuals, const SourceMap& map, const FloatArray& velocity, int life,
-                                 double fade, bool endless, int period) {
+                                 double fade, bool endless, int period, bool mirrored) {
   const Field flow = as_image<cv::Vec2f>(velocity, "velocity");
   return std::make_unique<Carried>(
-      residuals, CarriedResiduals(as_half_frames(residuals, "residuals"), map, {flow}, {life, fade, {endless, period}}));
+      residuals, CarriedResiduals(as_half_frames(residuals, "residuals"), map, {flow},
+                                  {life, fade, {endless, period}, mirrored ? Beyond() : repeated}));
 }
 
 py::array_t<float> carried_at(const Carried& carried, double moment) {
@@ -174,6 +176,11 @@ void bind_example(py::module_& module) {
       .def_readonly("explained", &ClipAnalysis::explained);
   module.def("analyse_clip", &analyse, py::arg("frames").noconvert(), py::arg("flow"), py::arg("quality"),
              py::arg("progress") = Progress::Listener());
+  module.def("moves_as_one", [](const py::array& frames) {
+    const HalfFrames halves = as_half_frames(frames, "frames");
+    const py::gil_scoped_release release;
+    return moves_as_one(halves);
+  });
   module.def("hold_camera", &held, py::arg("frames").noconvert(), py::arg("progress") = Progress::Listener());
   const TransferParameters usual;
   py::class_<TransferParameters>(module, "TransferParameters")
@@ -203,7 +210,7 @@ void bind_example(py::module_& module) {
   module.def("identical_map", [](Size clip) { return identical_map({clip.first, clip.second}); }, py::arg("clip"));
   py::class_<Carried>(module, "CarriedResiduals")
       .def(py::init(&carried), py::arg("residuals"), py::arg("map"), py::arg("velocity"), py::arg("life") = 16,
-           py::arg("fade") = 0.5, py::arg("endless") = true, py::arg("period") = 0)
+           py::arg("fade") = 0.5, py::arg("endless") = true, py::arg("period") = 0, py::arg("mirrored") = true)
       .def("at", &carried_at, py::arg("moment"));
   py::class_<LookParameters>(module, "LookParameters")
       .def(py::init(&look_parameters), py::kw_only(), py::arg("shutter"), py::arg("fps"), py::arg("average_blur"),

@@ -91,7 +91,7 @@ class Residuals {
     parallel_rows(count, 1, [&](int first, int last) {
       for (int k = first; k < last; ++k) {
         const Rgb here = frames_.read(start + k);
-        made[k] = here - sample_differences(frames_.read(start + k - 1), back_);
+        made[k] = here - sample_differences(frames_.read(start + k - 1), back_, repeated);
         energies[k] = energies_of(luma(here), luma(made[k]));
       }
     });

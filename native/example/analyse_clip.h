@@ -24,7 +24,7 @@ struct ClipAnalysis {
 ///
 ///     A = mean F_i,   D_i = F_i - A,   v (clip_flow.h),   r_0 = D_0,   r_i = D_i - W(D_{i-1})
 ///
-/// W(I)(x) is I where the fluid at x was one frame before (flow_map(v, -1), Catmull-Rom, beyond the sides mirrored), so that
+/// W(I)(x) is I where the fluid at x was one frame before (flow_map(v, -1), Catmull-Rom, beyond the sides the last pixel repeated), so that
 /// D_i is the sum of all r_j, each carried by i - j frames in one map (carried_residuals.h).
 ///
 /// `frames`: display-referred; they become the residuals r, in the same memory: only a few frames are in memory beside it.

@@ -103,7 +103,7 @@ Rgb CarriedResiduals::at(const ExampleNow& now) const {
 }
 
 void CarriedResiduals::add(int residual, double age, float share, const ExampleNow& now, Rgb& sum) const {
-  const Source laid(map_.gather(residuals_.read(residual)));
+  const Source laid(map_.gather(residuals_.read(residual)), parameters_.beyond, parameters_.beyond);
   parallel_rows(sum.rows, 16, [&](int first, int last) {
     std::array<float, run> x, y;
     std::array<cv::Vec4f, run> colours;

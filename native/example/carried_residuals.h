@@ -5,6 +5,7 @@
 #include "example/half_frames.h"
 #include "example/source_map.h"
 #include "flow/streamlines.h"
+#include "layers/sampling.h"
 
 namespace stillwater {
 
@@ -45,6 +46,7 @@ class CarriedResiduals {
     int life = 16;      ///< steps, 1..1000
     double fade = 0.5;  ///< 0..1
     ResidualSequence sequence;
+    Beyond beyond;  ///< how residuals go on beyond the picture's sides, where the fluid comes in: mirrored, so that it is lively
   };
 
   /// `residuals` (of which the memory must stay) and `map` as they fit together; `velocities`: the flows between which the

@@ -23,6 +23,7 @@ constexpr double doubtful = 0.02;  // of the mean weight: below it, the surround
 
 constexpr int corners = 100, window = 10, levels = 3;
 constexpr double apart = 5;  // px between corners
+constexpr double lost = 0.5;  // px: followed back, a corner is not further from where it was
 constexpr int place_size = 8;  // px
 
 Plane difference(const HalfFrames& frames, int i) { return luma(frames.read(i)); }
@@ -151,11 +152,12 @@ Field feature_flow(const HalfFrames& differences, Progress& progress) {
     std::vector<cv::Point2f> from, to;
     cv::goodFeaturesToTrack(here, from, corners, 0.01, apart);
     if (!from.empty()) {
-      std::vector<unsigned char> found;
-      std::vector<float> errors;
-      cv::calcOpticalFlowPyrLK(here, next, from, to, found, errors, cv::Size(window, window), levels);
+      std::vector<cv::Point2f> back;
+      std::vector<unsigned char> found, found_back;
+      cv::calcOpticalFlowPyrLK(here, next, from, to, found, cv::noArray(), cv::Size(window, window), levels);
+      cv::calcOpticalFlowPyrLK(next, here, to, back, found_back, cv::noArray(), cv::Size(window, window), levels);
       for (size_t k = 0; k < from.size(); ++k) {
-        if (!found[k]) continue;
+        if (!found[k] || !found_back[k] || cv::norm(back[k] - from[k]) > lost) continue;
         Mean& mean = places[{static_cast<int>(from[k].y) / place_size, static_cast<int>(from[k].x) / place_size}];
         mean.sum += cv::Vec2d(to[k].x - from[k].x, to[k].y - from[k].y);
         ++mean.count;

@@ -7,11 +7,14 @@
 #include <numbers>
 #include <numeric>
 #include <opencv2/flann.hpp>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/random.h"
 #include "flow/streamline.h"
 
 namespace stillwater {
@@ -19,7 +22,7 @@ namespace {
 
 constexpr int side = 5, samples = side * side;
 constexpr double kept_variance = 0.99;
-constexpr int nearest = 24;
+constexpr int nearest = 24, tried = 24;
 constexpr int most_places = 120;  // of the clip, along its longer side
 
 constexpr double turning = 0.3, flatness = 0.1, breaking = 0.25, repeating = 0.02;
@@ -168,14 +171,13 @@ class Choice {
         taken_(cv::Mat1i::zeros(static_cast<int>(clip.velocity.rows / width_) + 1,
                                 static_cast<int>(clip.velocity.cols / width_) + 1)) {}
 
-  /// `neighbours`: laid already, null where there is none.
-  void begin(cv::Vec2f target, const Described& wanted, std::array<const PlacedPatch*, 2> neighbours) {
+  /// `neighbours`: those laid already.
+  void begin(cv::Vec2f target, const Described& wanted, std::vector<const PlacedPatch*> neighbours) {
     wanted_ = &wanted;
-    neighbours_ = neighbours;
+    neighbours_ = std::move(neighbours);
     best_ = {target, {}, 0};
     least_ = std::numeric_limits<double>::max();
-    for (const PlacedPatch* neighbour : neighbours)
-      if (neighbour) offer_going_on(*neighbour);
+    for (const PlacedPatch* neighbour : neighbours_) offer_going_on(*neighbour);
   }
 
   void offer(cv::Vec2f source, const Described& there) {
@@ -190,6 +192,7 @@ class Choice {
   }
 
   double apart() const { return best_apart_; }
+  double cost() const { return least_; }
 
  private:
   // The place that a neighbour, laid as it is, has under this patch.
@@ -208,7 +211,7 @@ class Choice {
     const double lively = high_energy_ > 0 ? std::min(1.0f, energy_at(source) / high_energy_) : 1;
     double cost = apart + turning * (1 - std::cos(turn)) + flatness * (1 - lively) + repeating * taken_(cell(source));
     for (const PlacedPatch* neighbour : neighbours_)
-      if (neighbour && !goes_on(*neighbour, source, turn)) cost += breaking;
+      if (!goes_on(*neighbour, source, turn)) cost += breaking;
     if (cost >= least_) return;
     least_ = cost;
     best_apart_ = apart;
@@ -241,9 +244,76 @@ class Choice {
   float high_energy_;
   cv::Mat1i taken_;
   const Described* wanted_ = nullptr;
-  std::array<const PlacedPatch*, 2> neighbours_{};
+  std::vector<const PlacedPatch*> neighbours_;
   PlacedPatch best_;
   double least_ = 0, best_apart_ = 0;
+};
+
+/// Lays the patches one after the other: the one that costs least first, and from there always the neighbour of a laid one
+/// that costs least: so what is connected grows from where the flows agree best.
+class Growth {
+ public:
+  Growth(const Patches& wanted, const Patches& there, const cv::Mat1i& found, Choice choice)
+      : wanted_(wanted), there_(there), found_(found), choice_(std::move(choice)), count_(static_cast<int>(wanted.patches.size())),
+        laid_(count_, 0), placed_(count_), apart_(count_) {}
+
+  void run() {
+    int first = 0;
+    double least = std::numeric_limits<double>::max();
+    for (int i = 0; i < count_; ++i) {
+      choose(i);
+      if (choice_.cost() < least) least = choice_.cost(), first = i;
+    }
+    waiting_.insert({least, first});
+    while (!waiting_.empty()) {
+      const int i = waiting_.begin()->second;
+      waiting_.erase(waiting_.begin());
+      if (laid_[i]) continue;
+      choose(i);
+      placed_[i] = choice_.take();
+      apart_[i] = choice_.apart();
+      laid_[i] = 1;
+      for (const int other : around(i)) {
+        if (laid_[other]) continue;
+        choose(other);
+        waiting_.insert({choice_.cost(), other});
+      }
+    }
+  }
+
+  const std::vector<PlacedPatch>& placed() const { return placed_; }
+  const std::vector<double>& apart() const { return apart_; }
+
+ private:
+  std::vector<int> around(int i) const {
+    std::vector<int> others;
+    const int column = i % wanted_.columns;
+    if (column > 0) others.push_back(i - 1);
+    if (column + 1 < wanted_.columns) others.push_back(i + 1);
+    if (i >= wanted_.columns) others.push_back(i - wanted_.columns);
+    if (i + wanted_.columns < count_) others.push_back(i + wanted_.columns);
+    return others;
+  }
+
+  void choose(int i) {
+    std::vector<const PlacedPatch*> neighbours;
+    for (const int other : around(i))
+      if (laid_[other]) neighbours.push_back(&placed_[other]);
+    choice_.begin(wanted_.places[i], wanted_.patches[i], std::move(neighbours));
+    const auto offer = [&](int place) { choice_.offer(there_.places[place], there_.patches[place]); };
+    for (int k = 0; k < found_.cols; ++k) offer(found_(i, k));
+    for (int k = 0; k < tried; ++k) offer(static_cast<int>(random_bits(0, {i, k}) % there_.patches.size()));
+  }
+
+  const Patches& wanted_;
+  const Patches& there_;
+  const cv::Mat1i& found_;
+  Choice choice_;
+  int count_;
+  std::vector<unsigned char> laid_;
+  std::vector<PlacedPatch> placed_;
+  std::vector<double> apart_;
+  std::set<std::pair<double, int>> waiting_;
 };
 
 void check_arguments(const Field& velocity, const ClipMotion& clip, const TransferParameters& parameters) {
@@ -266,17 +336,10 @@ std::vector<PlacedPatch> match_patches(const Field& velocity, const ClipMotion& 
   const Patches there = of_clip(clip.velocity, parameters.patch / parameters.clip_scale);
   const cv::Mat1i found = Search(there.vectors()).nearest_to(wanted.vectors());
   const auto count = static_cast<int>(wanted.patches.size());
-  std::vector<PlacedPatch> placed(count);
-  std::vector<double> apart(count);
-  Choice choice(clip, parameters);
-  for (int i = 0; i < count; ++i) {
-    const bool first_of_row = i % wanted.columns == 0;
-    choice.begin(wanted.places[i], wanted.patches[i],
-                 {first_of_row ? nullptr : &placed[i - 1], i < wanted.columns ? nullptr : &placed[i - wanted.columns]});
-    for (int k = 0; k < found.cols; ++k) choice.offer(there.places[found(i, k)], there.patches[found(i, k)]);
-    placed[i] = choice.take();
-    apart[i] = choice.apart();
-  }
+  Growth growth(wanted, there, found, Choice(clip, parameters));
+  growth.run();
+  const std::vector<PlacedPatch>& placed = growth.placed();
+  const std::vector<double>& apart = growth.apart();
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {

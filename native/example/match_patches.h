@@ -18,12 +18,14 @@ struct ClipMotion {
 /// A patch is described by 5 x 5 vectors of its flow, with its own mean direction turned to the right; the clip's patches by
 /// their principal components (all that hold 99 % of the variance), searched exactly by a k-d tree (FLANN). Both flows are
 /// measured in multiples of their own median speed, so that a picture painted slower than the clip matches all the same.
-/// Of the 24 nearest, and of the places with which the patches to the left and above go on, the one is taken that costs
-/// least:
+/// Of the 24 nearest, of 24 others anywhere, and of the places with which the patches around go on, the one is taken that
+/// costs least:
 ///
-///     d^2 + 0.3 (1 - cos turn) + 0.15 (1 - energy, against the clip's 90th percentile, at most 1)
-///         + 0.1 (for each of the two neighbours that it does not go on with) + 0.05 (times it was taken, for patches of
-///         its own size)
+///     d + 0.3 (1 - cos turn) + 0.1 (1 - energy, against the clip's 90th percentile, at most 1)
+///       + 0.25 (for each laid neighbour that it does not go on with) + 0.02 (for each time that it was taken, of its square)
+///
+/// d: squared difference of the vectors, as a share of their own squares and a quarter of the median speed's. Patches are
+/// laid where they cost least first, and from there on by their neighbours.
 ///
 /// So a patch is turned only where nothing of the clip runs its way; where the flow is uniform, and all places fit, lively
 /// and connected ones are taken, not flat ones, and not one again and again. The flow where nothing moves has no direction,

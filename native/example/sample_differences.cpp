@@ -20,8 +20,8 @@ Rgb without_coverage(const Rgba& covering) {
   return differences;
 }
 
-Rgb sample_differences(const Rgb& differences, const Field& map) {
-  return without_coverage(displace(as_covering(differences), map));
+Rgb sample_differences(const Rgb& differences, const Field& map, Beyond beyond) {
+  return without_coverage(displace(as_covering(differences), map, beyond, beyond));
 }
 
 }  // namespace stillwater

@@ -52,6 +52,11 @@ _HOMES = {
     "match_texture": "appearance",
     "motion_blur": "appearance",
     "optical_flow": "flow",
+    "ClipAnalysis": "example",
+    "analyse": "example",
+    "reconstruct": "example",
+    "read_analysis": "example",
+    "write_analysis": "example",
 }
 
 __all__ = sorted(_HOMES)

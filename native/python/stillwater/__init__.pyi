@@ -1,3 +1,8 @@
+from .example import ClipAnalysis as ClipAnalysis
+from .example import analyse as analyse
+from .example import read_analysis as read_analysis
+from .example import reconstruct as reconstruct
+from .example import write_analysis as write_analysis
 from .flow import advect as advect
 from .flow import flow_map as flow_map
 from .flow import optical_flow as optical_flow

@@ -1,7 +1,17 @@
 """Files that a command is given: what is wrong with one is said with its name, once."""
 
+import argparse
 import contextlib
+import re
 import sys
+
+
+def frame_range(text: str) -> tuple[int, int]:
+    """Of an argument: first and last."""
+    match = re.fullmatch(r"(-?\d{1,9})(?:-(-?\d{1,9}))?", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"{text} is not a frame or FIRST-LAST")
+    return int(match[1]), int(match[2] or match[1])
 
 
 def check_ending(path: str, endings: tuple[str, ...]) -> None:

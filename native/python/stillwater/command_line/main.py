@@ -7,11 +7,11 @@ import sys
 
 from ..recipe import RecipeError
 from ..render.errors import Refused
-from . import check, flow, info, inpaint, layers, matte, render, schema, serve
+from . import analyse, check, flow, info, inpaint, layers, matte, render, schema, serve
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
-COMMANDS = (check, schema, info, render, serve, layers, matte, inpaint, flow)
+COMMANDS = (check, schema, info, render, serve, layers, matte, inpaint, flow, analyse)
 
 
 class Parser(argparse.ArgumentParser):

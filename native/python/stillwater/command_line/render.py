@@ -6,12 +6,13 @@ import sys
 from pathlib import Path
 
 from . import cache_options
+from .files import frame_range
 
 
 def add_to(commands) -> None:
     parser = commands.add_parser("render", help="render a recipe's frames")
     parser.add_argument("file", help="recipe (JSON)")
-    parser.add_argument("--frames", type=_frames, metavar="A-B", help="only these, both included")
+    parser.add_argument("--frames", type=frame_range, metavar="A-B", help="only these, both included")
     parser.add_argument("--output", type=Path, metavar="DIR", help="folder of the frames, instead of the recipe's")
     parser.add_argument("--scale", type=_scale, metavar="S", help="output pixels for a picture pixel, instead of the recipe's")
     parser.add_argument("--threads", type=_threads, default=0, metavar="N", help="0: one a core")
@@ -47,13 +48,6 @@ def _run(given) -> None:
         )
         for event in render(load(given.file), order):
             show(event)
-
-
-def _frames(text: str) -> tuple[int, int]:
-    match = re.fullmatch(r"(-?\d{1,9})(?:-(-?\d{1,9}))?", text)
-    if not match:
-        raise argparse.ArgumentTypeError(f"{text} is not a frame or FIRST-LAST")
-    return int(match[1]), int(match[2] or match[1])
 
 
 def _scale(text: str) -> float:

@@ -12,6 +12,7 @@ FEWEST = 3  # frames
 SMALLEST = 32  # px a side
 WORK = 400  # bytes a pixel of the clip while it is taken apart, beside its frames; and for each frame
 FRAME, SUMS = 6, 1.5
+AS_ONE = 0.3  # of the pairs of frames
 REPEATED = 0.05  # of the usual change from frame to frame: less is no change
 
 
@@ -71,8 +72,9 @@ def read_frames(
     if repeats:
         frames = _without(frames, repeats)
         fps *= len(frames) / (last - first + 1)
-        many = "1 frame repeats" if len(repeats) == 1 else f"{len(repeats)} frames repeat"
-        warnings.append(f"clip: {many} the one before and are left out; taken as {fps:.4g} frames per second")
+        one = len(repeats) == 1
+        many = "1 frame repeats the one before and is" if one else f"{len(repeats)} frames repeat the one before and are"
+        warnings.append(f"clip: {many} left out; taken as {fps:.4g} frames per second")
     return ClipFrames(frames, fps, warnings)
 
 
@@ -82,6 +84,19 @@ def _without(frames: np.ndarray, left_out: list[int]) -> np.ndarray:
     for i, frame in enumerate(kept):
         frames[i] = frames[frame]
     return frames[: len(kept)]
+
+
+def take_apart(clip: ClipFrames, flow: str, quality: str, steady: bool, progress: Callable[[str, float], bool]):
+    """The clip's frames become its residuals, in the same memory; answers engine.ClipAnalysis. What is odd is added to the
+    clip's warnings. Throws BadInput, Cancelled."""
+    if steady:
+        moved = engine.hold_camera(clip.frames, progress)
+        clip.warnings.append(f"clip: held still; the camera shook by up to {moved:.1f} px")
+    if engine.moves_as_one(clip.frames) > AS_ONE:
+        clip.warnings.append(
+            "clip: the whole picture moves as one: by a camera that moves, or a fluid that fills it (the two can't be told apart)"
+        )
+    return engine.analyse_clip(clip.frames, flow, quality, progress)
 
 
 def needed_memory(size: tuple[int, int], frames: int) -> float:

@@ -14,7 +14,7 @@ from .. import _stillwater as engine
 from ..recipe import Document, RecipeError
 from ..recipe.fluids import Example
 from .cache import Prepared
-from .clips import read_frames
+from . import clips
 from .filming import ExampleTrack, Pace
 from .keys import ENGINES, hashed
 
@@ -62,8 +62,8 @@ def take_apart(document: Document, example: Example, place: str, beat: Callable[
         return True
 
     try:
-        clip = read_frames(str(document.locate(example.clip)), example.clip_frames, MEMORY, still_there)
-        found = engine.analyse_clip(clip.frames, "dense", "medium", still_there)
+        clip = clips.read_frames(str(document.locate(example.clip)), example.clip_frames, MEMORY, still_there)
+        found = clips.take_apart(clip, "dense", "medium", False, still_there)
     except engine.BadInput as error:
         raise RecipeError(f"{place}.{error}") from None
     except engine.FileError as error:
