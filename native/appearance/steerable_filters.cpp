@@ -155,7 +155,7 @@ void SteerableFilters::weigh(int band, const FftSpectrum& picture, const FftColu
 
 void SteerableFilters::analyse(int band, const FftSpectrum& picture, float* coefficients) const {
   transform_of(band).inverse([&](const FftColumns& columns) { weigh(band, picture, columns); }, coefficients,
-                             size_of(band).width);
+                             size_of(band).width, RealFft2::Threads::one);
 }
 
 void SteerableFilters::analyse_quadrature(int band, const FftSpectrum& picture, float* coefficients) const {
@@ -171,7 +171,7 @@ void SteerableFilters::analyse_quadrature(int band, const FftSpectrum& picture, 
             columns[j][row] = turned(columns[j][row], along < 0 ? 3 : 1);
           }
       },
-      coefficients, own.width);
+      coefficients, own.width, RealFft2::Threads::one);
 }
 
 void SteerableFilters::add(int band, const FftRows& rows, const FftColumns& picture) const {

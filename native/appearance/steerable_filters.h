@@ -38,7 +38,7 @@ class SteerableFilters {
   /// Numbers of the picture's spectrum that lie near each other, for analyse(): the columns one after the other.
   FftSpectrum spectrum_of(const float* picture, size_t stride) const;
 
-  /// The picture's spectrum -> the band's coefficients, in size_of(band).width numbers a row.
+  /// The picture's spectrum -> the band's coefficients, in size_of(band).width numbers a row. For one thread.
   void analyse(int band, const FftSpectrum& picture, float* coefficients) const;
 
   /// The same times -i sgn(cos(theta - pi b / o)): the band's quadrature partner, the imaginary part of a complex pyramid.

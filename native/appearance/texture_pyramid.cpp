@@ -67,10 +67,10 @@ class SteerableTexture final : public TexturePyramid {
 
   void change_bands(const Change& change) override {
     std::array<FftSpectrum, channels> pictures;
-    parallel_rows(channels, 1, [&](int channel, int) {
+    for (int channel = 0; channel < channels; ++channel) {
       pad(planes[channel], padded_[channel][0]);
       pictures[channel] = filters_->spectrum_of(padded_[channel][0], padded_[channel].cols);
-    });
+    }
     parallel_rows(channels * bands(), 1, [&](int i, int) {
       const int band = i / channels, channel = i % channels;
       const Samples samples = samples_of(values_[i]);
@@ -99,12 +99,12 @@ class SteerableTexture final : public TexturePyramid {
   }
 
   void collapse() {
-    parallel_rows(channels, 1, [&](int channel, int) {
+    for (int channel = 0; channel < channels; ++channel) {
       std::vector<const FftRows*> bands;
       for (size_t band = channel; band < rows_.size(); band += channels) bands.push_back(&rows_[band]);
       filters_->synthesise(bands, padded_[channel][0], padded_[channel].cols);
       for (int y = 0; y < frame_.height; ++y) std::copy_n(padded_[channel][y], frame_.width, planes[channel][y]);
-    });
+    }
   }
 
   std::shared_ptr<const SteerableFilters> filters_;

@@ -77,6 +77,14 @@ struct Turned {
 
 constexpr Two minus_real{-1, 1, -1, 1}, minus_imaginary{1, -1, 1, -1};
 
+/// Columns and pairs of rows of one piece of work.
+constexpr int column_grain = 2 * strip, row_grain = 32;
+
+/// parallel_rows, or all in one piece.
+void pieces(int rows, int grain, RealFft2::Threads threads, const std::function<void(int first, int last)>& work) {
+  parallel_rows(rows, threads == RealFft2::Threads::one ? rows : grain, work);
+}
+
 std::complex<float>* complex_of(fftwf_complex* numbers) { return reinterpret_cast<std::complex<float>*>(numbers); }
 fftwf_complex* fftw_of(std::complex<float>* numbers) { return reinterpret_cast<fftwf_complex*>(numbers); }
 
@@ -291,10 +299,10 @@ void RealFft2::down(const FftRows& rows, const FftColumns& columns) const {
   for (int j = 0; j < columns.count; ++j) transform(down_forward_, lines[j], columns[j]);
 }
 
-void RealFft2::forward(const float* plane, size_t stride, const Take& take) const {
+void RealFft2::forward(const float* plane, size_t stride, const Take& take, Threads threads) const {
   FftRows rows(size_);
-  parallel_rows(rows.pairs(), 64, [&](int first, int last) { rows_forward(plane, stride, first, last, rows); });
-  parallel_rows(columns(), 8 * strip, [&](int first, int last) {
+  pieces(rows.pairs(), row_grain, threads, [&](int first, int last) { rows_forward(plane, stride, first, last, rows); });
+  pieces(columns(), column_grain, threads, [&](int first, int last) {
     const Buffer transformed(strip * column_stride());
     for (int kx = first; kx < last; kx += strip) {
       const FftColumns some{kx, std::min(strip, last - kx), complex_of(transformed.data), column_stride()};
@@ -304,10 +312,10 @@ void RealFft2::forward(const float* plane, size_t stride, const Take& take) cons
   });
 }
 
-void RealFft2::inverse(const Fill& fill, float* plane, size_t stride) const {
+void RealFft2::inverse(const Fill& fill, float* plane, size_t stride, Threads threads) const {
   const int width = size_.width, height = size_.height;
   FftRows rows(size_);
-  parallel_rows(columns(), 8 * strip, [&](int first, int last) {
+  pieces(columns(), column_grain, threads, [&](int first, int last) {
     const Buffer filled(strip * column_stride()), turned(strip * column_stride());
     for (int kx = first; kx < last; kx += strip) {
       const int count = std::min(strip, last - kx);
@@ -321,7 +329,7 @@ void RealFft2::inverse(const Fill& fill, float* plane, size_t stride) const {
       rows.turn_in(lines);
     }
   });
-  parallel_rows(rows.pairs(), 64, [&](int first, int last) {
+  pieces(rows.pairs(), row_grain, threads, [&](int first, int last) {
     const Buffer line(width);
     for (int pair = first; pair < last; ++pair) {
       transform(along_inverse_, rows.line(pair), complex_of(line.data));

@@ -79,7 +79,7 @@ class FftRows {
 /// Real plane <-> half spectrum, any size, neither way normalised: there and back multiplies by the number of pixels.
 /// A spectrum has width / 2 + 1 columns of `height` numbers, kx running from 0; number ky above height / 2 is ky - height.
 /// It comes and goes a few columns at a time, so that what is done to them is done while they are near.
-/// One object may serve several threads at once; forward() and inverse() themselves use several.
+/// One object may serve several threads at once.
 class RealFft2 {
  public:
   /// Sides 1 .. largest_side. Throws BadInput.
@@ -93,8 +93,11 @@ class RealFft2 {
   /// Together they take each column once; called by several threads, each with its own columns.
   using Take = std::function<void(const FftColumns& columns)>;
 
+  /// Who calls may be one of several threads already.
+  enum class Threads { one, several };
+
   /// `stride`: numbers from one row to the next.
-  void forward(const float* plane, size_t stride, const Take& take) const;
+  void forward(const float* plane, size_t stride, const Take& take, Threads threads = Threads::several) const;
 
   /// Its two steps, for one thread: the rows, then any of the columns, up to most_columns at a time.
   FftRows along(const float* plane, size_t stride) const;
@@ -105,7 +108,7 @@ class RealFft2 {
   /// `fill` is to write the columns that it is given of the spectrum of a real plane: H(0, -ky) = conj H(0, ky), the same at
   /// width / 2.
   using Fill = std::function<void(const FftColumns& columns)>;
-  void inverse(const Fill& fill, float* plane, size_t stride) const;
+  void inverse(const Fill& fill, float* plane, size_t stride, Threads threads = Threads::several) const;
 
  private:
   void rows_forward(const float* plane, size_t stride, int first, int last, FftRows& rows) const;

@@ -166,8 +166,10 @@ Field finished_orientation(const Ready& ready, const std::vector<Drawn>& all, cv
 
 Plane finished_speed(const Ready& ready, const std::vector<Drawn>& all, cv::Size picture) {
   const bool all_local = std::all_of(all.begin(), all.end(), [](const Drawn& one) { return one.stroke->local; });
-  Plane speed(picture, static_cast<float>(all_local ? 0 : FlowStroke().speed));
-  if (!ready.pixels.empty()) {
+  Plane speed;
+  if (ready.pixels.empty()) {
+    speed = Plane(picture, static_cast<float>(all_local ? 0 : FlowStroke().speed));
+  } else {
     const auto slower = [](const StrokePixel& a, const StrokePixel& b) { return a.value[0] < b.value[0]; };
     const auto [slowest, fastest] = std::minmax_element(ready.pixels.begin(), ready.pixels.end(), slower);
     const RadialInterpolation between = interpolated(weakened(ready.pixels, false, ready.accuracy), false, ready.accuracy);
