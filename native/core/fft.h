@@ -102,7 +102,7 @@ class RealFft2 {
   /// Its two steps, for one thread: the rows, then any of the columns, up to most_columns at a time.
   FftRows along(const float* plane, size_t stride) const;
   void down(const FftRows& rows, const FftColumns& columns) const;
-  static constexpr int most_columns = 8;  ///< a cache line of the rows
+  static constexpr int most_columns = 16;  ///< two cache lines of the rows
   size_t column_stride() const;           ///< that suits FFTW and the cache
 
   /// `fill` is to write the columns that it is given of the spectrum of a real plane: H(0, -ky) = conj H(0, ky), the same at
