@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <type_traits>
 
 namespace stillwater {
 namespace {
@@ -32,49 +34,79 @@ struct Ruler {
 };
 
 /// A tile's share of the cells around it: 1 - distance of its middle to the cell's, in cells.
-float weight(int tile, int cell) {
+float tile_share(int tile, int cell) {
   constexpr float tiles = CellAxis::tiles_a_cell;
   const float away = std::abs((static_cast<float>(tile) + 0.5f) / tiles - (static_cast<float>(cell) + 0.5f));
   return std::max(0.0f, 1 - away);
 }
 
 /// Adds a row of tiles' counts to a row of cells.
-void gather(const std::vector<std::uint32_t>& tiles, int cells, int count, std::vector<float>& row) {
+template <class Number>
+void gather(const std::vector<Number>& tiles, int cells, int count, std::vector<float>& row) {
   std::fill(row.begin(), row.end(), 0.0f);
   for (int cell = 0; cell < cells; ++cell)
     for (int tile = 0; tile < cells * CellAxis::tiles_a_cell; ++tile) {
-      const float part = weight(tile, cell);
+      const float part = tile_share(tile, cell);
       if (part <= 0) continue;
-      const std::uint32_t* from = tiles.data() + static_cast<size_t>(tile) * count;
+      const Number* from = tiles.data() + static_cast<size_t>(tile) * count;
       float* to = row.data() + static_cast<size_t>(cell) * count;
       for (int bin = 0; bin < count; ++bin) to[bin] += part * static_cast<float>(from[bin]);
     }
 }
 
-/// Histograms of cells, row by row.
-std::vector<float> cell_counts(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins) {
+/// Histograms of cells, row by row. Numbers: whole ones where all samples count fully, else floats.
+template <class Number>
+std::vector<float> cell_counts(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins,
+                               const Plane& weight) {
   const int count = bins.count();
   const Ruler place(bins);
-  std::vector<std::uint32_t> tiles(static_cast<size_t>(x.cells) * CellAxis::tiles_a_cell * count);
+  std::vector<Number> tiles(static_cast<size_t>(x.cells) * CellAxis::tiles_a_cell * count);
   std::vector<float> row(static_cast<size_t>(x.cells) * count), cells(row.size() * y.cells);
   std::vector<std::int32_t> bin(plane.width);
   for (int first = 0; first < y.inside;) {
     const int tile_row = y.tile[first];
-    std::fill(tiles.begin(), tiles.end(), 0u);
+    std::fill(tiles.begin(), tiles.end(), Number(0));
     for (; first < y.inside && y.tile[first] == tile_row; ++first) {
       const float* values = plane.data + first * plane.stride;
       for (int i = 0; i < x.inside; ++i) bin[i] = std::min(static_cast<std::int32_t>(place(values[i])), count - 1);
-      for (int i = 0; i < x.inside; ++i) ++tiles[static_cast<size_t>(x.tile[i]) * count + bin[i]];
+      if constexpr (std::is_integral_v<Number>) {
+        for (int i = 0; i < x.inside; ++i) ++tiles[static_cast<size_t>(x.tile[i]) * count + bin[i]];
+      } else {
+        const float* counts = weight[std::min(first, weight.rows - 1)];
+        for (int i = 0; i < x.inside; ++i)
+          tiles[static_cast<size_t>(x.tile[i]) * count + bin[i]] += counts[std::min(i, weight.cols - 1)];
+      }
     }
     gather(tiles, x.cells, count, row);
     for (int cell = 0; cell < y.cells; ++cell) {
-      const float part = weight(tile_row, cell);
+      const float part = tile_share(tile_row, cell);
       if (part <= 0) continue;
       float* to = cells.data() + cell * row.size();
       for (size_t i = 0; i < row.size(); ++i) to[i] += part * row[i];
     }
   }
   return cells;
+}
+
+/// Adds to each cell as much as `few` samples of all cells together.
+void add_a_few_of_all(std::vector<float>& counts, int count) {
+  constexpr double few = 4;
+  std::vector<double> whole(count);
+  for (size_t i = 0; i < counts.size(); ++i) whole[i % count] += counts[i];
+  const double all = std::accumulate(whole.begin(), whole.end(), 0.0);
+  for (size_t i = 0; i < counts.size(); ++i)
+    counts[i] += static_cast<float>(few * (all > 0 ? whole[i % count] / all : 1.0 / count));
+}
+
+/// Shares `from` of one cell, but `to` at a border where they differ by one sample between borders where they don't: there
+/// rounding may have moved a sample over the border.
+void settle(const float* from, const float* to, float sample, std::vector<float>& shares) {
+  const float rounding = 0.1f * sample + 1e-6f;
+  const int last = static_cast<int>(shares.size()) - 1;
+  const auto apart = [&](int i) { return std::abs(from[i] - to[i]); };
+  std::copy_n(from, last + 1, shares.begin());
+  for (int i = 1; i < last; ++i)
+    if (from[i] != to[i] && apart(i) <= sample + rounding && apart(i - 1) <= rounding && apart(i + 1) <= rounding) shares[i] = to[i];
 }
 
 /// Over bins in which nothing was counted the curve is straight.
@@ -125,18 +157,21 @@ CellAxis::CellAxis(int side, int cell_count, int samples, double step) : cells(c
   }
 }
 
-CellShares cell_shares(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins) {
-  const std::vector<float> counts = cell_counts(plane, x, y, bins);
+CellShares cell_shares(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins, const Plane& weight) {
+  std::vector<float> counts = weight.empty() ? cell_counts<std::uint32_t>(plane, x, y, bins, weight)
+                                             : cell_counts<float>(plane, x, y, bins, weight);
   const int count = bins.count();
+  if (!weight.empty()) add_a_few_of_all(counts, count);
   CellShares shares;
-  shares.reserve(counts.size() + counts.size() / count);
+  shares.below.reserve(counts.size() + counts.size() / count);
   for (size_t cell = 0; cell < counts.size(); cell += count) {
     double all = 0, below = 0;
     for (int bin = 0; bin < count; ++bin) all += counts[cell + bin];
-    shares.push_back(0);
+    shares.samples.push_back(static_cast<float>(all));
+    shares.below.push_back(0);
     for (int bin = 0; bin < count; ++bin) {
       below += counts[cell + bin];
-      shares.push_back(static_cast<float>(below / all));
+      shares.below.push_back(static_cast<float>(below / all));
     }
   }
   return shares;
@@ -146,9 +181,12 @@ CellCurves cell_curves(const CellShares& from, const CellShares& to, const Bins&
   const int count = bins.count();
   std::vector<float> border(count + 1);
   for (int i = 0; i <= count; ++i) border[i] = bins.value(static_cast<float>(i));
-  CellCurves curves(from.size());
-  for (size_t cell = 0; cell < from.size(); cell += count + 1) {
-    const float *wanted = from.data() + cell, *below = to.data() + cell;
+  CellCurves curves(from.below.size());
+  std::vector<float> settled(count + 1);
+  for (size_t cell = 0; cell < from.below.size(); cell += count + 1) {
+    const float* below = to.below.data() + cell;
+    settle(from.below.data() + cell, below, 1 / from.samples[cell / (count + 1)], settled);
+    const float* wanted = settled.data();
     const auto value_in = [&](int bin, float share) {
       const float width = below[bin + 1] - below[bin];
       const float part = width > 0 ? std::clamp((share - below[bin]) / width, 0.0f, 1.0f) : 0.0f;

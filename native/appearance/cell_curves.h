@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/image.h"
+
 /// Histograms of a plane's cells, and curves that take one plane's to another's. Cells share their plane: a cell's
 /// histogram counts the pixels around its centre, less and less up to the neighbours' centres, and between centres the
 /// curves are blended, so that there is no border to see.
@@ -49,12 +51,20 @@ struct Samples {
   size_t stride;
 };
 
-/// For each cell (row by row) count() + 1 numbers: the share of the weight below each border of the bins, 0 .. 1.
-using CellShares = std::vector<float>;
-CellShares cell_shares(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins);
+/// What the cells of a plane have, row by row.
+struct CellShares {
+  std::vector<float> below;    ///< for each cell count() + 1 numbers: the share of the weight below each border of the bins, 0 .. 1
+  std::vector<float> samples;  ///< for each cell: the weight of its samples
+};
+
+/// `weight`: how much each sample counts, 0 .. 1; empty: all of them fully. It may have less rows and columns, its last ones
+/// then go on. Where not all count, each cell counts a few samples of the whole plane too, so that one in which nothing is to
+/// be seen has its values from there.
+CellShares cell_shares(const Samples& plane, const CellAxis& x, const CellAxis& y, const Bins& bins, const Plane& weight = {});
 
 /// For each cell count() + 1 numbers: what the value at each border becomes, so that shares `from` become shares `to`. Rises,
-/// and goes on straight beyond the values that `from` has.
+/// and goes on straight beyond the values that `from` has. Where only
+/// one sample lies on another side of one border, which rounding may do, nothing changes.
 using CellCurves = std::vector<float>;
 CellCurves cell_curves(const CellShares& from, const CellShares& to, const Bins& bins);
 

@@ -50,15 +50,29 @@ int usual_scales(int cell) {
   return scales;
 }
 
+/// Less alpha than this is nothing that is seen.
+constexpr float least_alpha = 1.0f / 512;
+
+bool seen(const cv::Vec4f& p) { return p[3] > least_alpha; }
+
+cv::Vec3f colour_of(const cv::Vec4f& p) { return cv::Vec3f(p[0], p[1], p[2]) * (1 / p[3]); }
+
 /// Mean and principal axes of the picture's colours.
 void find_axes(const Rgba& picture, TextureTarget& target) {
   cv::Vec3d sum(0, 0, 0);
-  for (const cv::Vec4f& p : picture) sum += cv::Vec3d(p[0], p[1], p[2]);
-  const cv::Vec3d mean = sum / static_cast<double>(picture.total());
+  double all = 0;
+  for (const cv::Vec4f& p : picture) {
+    if (!seen(p)) continue;
+    sum += cv::Vec3d(p[0], p[1], p[2]);
+    all += p[3];
+  }
+  if (all <= 0) throw BadInput("picture: one of which nothing is seen, alpha 0 everywhere, is not a texture");
+  const cv::Vec3d mean = sum / all;
   cv::Matx33d covariance = cv::Matx33d::zeros();
   for (const cv::Vec4f& p : picture) {
-    const cv::Vec3d away = cv::Vec3d(p[0], p[1], p[2]) - mean;
-    covariance += away * away.t();
+    if (!seen(p)) continue;
+    const cv::Vec3d away = cv::Vec3d(colour_of(p)) - mean;
+    covariance += p[3] * (away * away.t());
   }
   cv::Mat values, axes;
   cv::eigen(cv::Mat(covariance), values, axes);
@@ -66,6 +80,13 @@ void find_axes(const Rgba& picture, TextureTarget& target) {
   target.axes = cv::Matx33d(axes.ptr<double>());
 }
 
+Plane alpha_of(const Rgba& frame) {
+  Plane alpha;
+  cv::extractChannel(frame, alpha, 3);
+  return alpha;
+}
+
+/// What is not seen has the mean colour.
 std::unique_ptr<TexturePyramid> pyramid_of(const Rgba& frame, const TextureTarget& target) {
   auto pyramid = target.matching == TextureMatching::steerable
                      ? TexturePyramid::steerable(frame.size(), target.grid, target.scales, target.orientations)
@@ -74,19 +95,22 @@ std::unique_ptr<TexturePyramid> pyramid_of(const Rgba& frame, const TextureTarge
     for (int y = first; y < last; ++y)
       for (int x = 0; x < frame.cols; ++x) {
         const cv::Vec4f& p = frame(y, x);
-        const cv::Vec3f along = target.axes * (cv::Vec3f(p[0], p[1], p[2]) - target.mean);
+        const cv::Vec3f along = seen(p) ? target.axes * (colour_of(p) - target.mean) : cv::Vec3f();
         for (int channel = 0; channel < channels; ++channel) pyramid->planes[channel](y, x) = along[channel];
       }
   });
+  const Plane alpha = alpha_of(frame);
+  if (cv::countNonZero(alpha < 1) > 0) pyramid->weigh(alpha);
   return pyramid;
 }
 
-TextureTarget::PlaneStatistics statistics_of(const Samples& plane, const CellAxis& x, const CellAxis& y, bool even) {
+TextureTarget::PlaneStatistics statistics_of(const Samples& plane, const CellAxis& x, const CellAxis& y, bool even,
+                                              const Plane& weight) {
   float largest = 0;
   for (int j = 0; j < y.inside; ++j)
     for (int i = 0; i < x.inside; ++i) largest = std::max(largest, std::abs(plane.data[j * plane.stride + i]));
   const Bins bins = Bins::of(0, largest, even);
-  return {bins, cell_shares(plane, x, y, bins)};
+  return {bins, cell_shares(plane, x, y, bins, weight)};
 }
 
 /// Walks the method's steps on a frame; `pixels` and `bands` change each plane, told the repetition.
@@ -114,7 +138,7 @@ Rgba coloured(const TexturePyramid& pyramid, const TextureTarget& target, const 
         const cv::Vec3f along(pyramid.planes[0](y, x), pyramid.planes[1](y, x), pyramid.planes[2](y, x));
         const cv::Vec3f colour = back * along + target.mean;
         const cv::Vec4f& old = frame(y, x);
-        for (int c = 0; c < channels; ++c) matched(y, x)[c] = old[c] + share * (std::max(0.0f, colour[c]) - old[c]);
+        for (int c = 0; c < channels; ++c) matched(y, x)[c] = old[c] + share * (old[3] * std::max(0.0f, colour[c]) - old[c]);
         matched(y, x)[3] = old[3];
       }
   });
@@ -135,19 +159,19 @@ TextureCurves match_by_own(TexturePyramid& pyramid, const TextureTarget& target,
   curves.pixels.resize(static_cast<size_t>(repetitions + 1) * channels);
   curves.bands.resize(static_cast<size_t>(repetitions) * channels * bands);
   const auto match = [](const TextureTarget::PlaneStatistics& wanted, const Samples& samples, const CellAxis& x,
-                        const CellAxis& y) {
-    CellCurves made = cell_curves(cell_shares(samples, x, y, wanted.bins), wanted.shares, wanted.bins);
+                        const CellAxis& y, const Plane& weight) {
+    CellCurves made = cell_curves(cell_shares(samples, x, y, wanted.bins, weight), wanted.shares, wanted.bins);
     apply(made, x, y, wanted.bins, samples);
     return made;
   };
   repeat(
       pyramid, repetitions,
       [&](int step, int channel, const Samples& samples, const CellAxis& x, const CellAxis& y) {
-        curves.pixels[step * channels + channel] = match(target.pixels[channel], samples, x, y);
+        curves.pixels[step * channels + channel] = match(target.pixels[channel], samples, x, y, pyramid.pixel_weight());
       },
       [&](int step, int channel, int band, const Samples& samples, const CellAxis& x, const CellAxis& y) {
         const int plane = channel * bands + band;
-        curves.bands[step * channels * bands + plane] = match(target.bands[plane], samples, x, y);
+        curves.bands[step * channels * bands + plane] = match(target.bands[plane], samples, x, y, pyramid.band_weight(band));
       });
   return curves;
 }
@@ -174,10 +198,11 @@ TextureTarget describe(const Rgba& picture, const DescribeParameters& parameters
   target.pixels.resize(channels);
   target.bands.resize(static_cast<size_t>(channels) * bands);
   pyramid->change_pixels([&](int channel, int, const Samples& samples, const CellAxis& x, const CellAxis& y) {
-    target.pixels[channel] = statistics_of(samples, x, y, true);
+    target.pixels[channel] = statistics_of(samples, x, y, true, pyramid->pixel_weight());
   });
   pyramid->change_bands([&](int channel, int band, const Samples& samples, const CellAxis& x, const CellAxis& y) {
-    target.bands[channel * bands + band] = statistics_of(samples, x, y, pyramid->is_picture(band));
+    target.bands[channel * bands + band] =
+        statistics_of(samples, x, y, pyramid->is_picture(band), pyramid->band_weight(band));
   });
   return target;
 }
@@ -211,7 +236,7 @@ Rgba match_texture(const Rgba& frame, const TextureTarget& target, const Texture
   check::in_range("stylize", stylize, 0, 1);
   const int bands = bands_of(target), repetitions = static_cast<int>(curves.pixels.size()) / channels - 1;
   if (repetitions < 1 || curves.bands.size() != static_cast<size_t>(repetitions) * channels * bands ||
-      curves.pixels.front().size() != target.pixels.front().shares.size())
+      curves.pixels.front().size() != target.pixels.front().shares.below.size())
     throw BadInput("curves: not those of this target");
   const auto pyramid = pyramid_of(frame, target);
   repeat(

@@ -14,6 +14,9 @@
 ///
 /// The whole frame has one pyramid, and the cells differ in their histograms (cell_curves.h): so cells have no borders, where
 /// pyramids of parts would ring, and neighbours' statistics run into each other.
+///
+/// Pixels count as much as they are seen: alpha weighs the histograms, and bands' coefficients count by alpha around them. What
+/// is not seen has the mean colour, so that its own changes nothing. A frame without alpha goes the fast way.
 namespace stillwater {
 
 enum class TextureMatching {
@@ -44,8 +47,8 @@ struct TextureTarget {
   std::vector<PlaneStatistics> bands;   ///< channel by channel, finest first
 };
 
-/// Throws BadInput where the picture is less than 16 px a side or not finite, cells are smaller than 8 px, or `scales` leaves
-/// a cell less than 2 coefficients a side.
+/// Throws BadInput where the picture is less than 16 px a side, not finite or not seen at all, cells are smaller than 8 px, or
+/// `scales` leaves a cell less than 2 coefficients a side.
 TextureTarget describe(const Rgba& picture, const DescribeParameters& parameters = {});
 
 /// The curves that one frame was matched by, in the order of their use. They can serve other frames: a film that takes its

@@ -15,9 +15,8 @@ namespace {
 
 constexpr size_t kept_sizes = 8;
 
-/// Row of a spectrum -> its frequency, and back.
+/// Row of a spectrum -> its frequency.
 int frequency(int row, int rows) { return row <= rows / 2 ? row : row - rows; }
-int row_of(int frequency, int rows) { return frequency >= 0 ? frequency : frequency + rows; }
 
 /// sqrt of a raised cosine in log2 r: 0 up to r = 1/2, 1 from r = 1 on.
 double rising(double r) {
@@ -45,6 +44,25 @@ std::complex<float> turned(std::complex<float> x, int n) {
     case 3: return {-x.imag(), x.real()};
   }
   return x;
+}
+
+/// (-i)^turns scale x weight
+void weighed(const std::complex<float>* x, const float* weights, int turns, float scale, int count, std::complex<float>* to) {
+  const float signed_scale = turns % 4 < 2 ? scale : -scale;
+  if (turns % 2 == 0)
+    for (int i = 0; i < count; ++i) {
+      const float weight = weights[i] * signed_scale;
+      to[i] = {x[i].real() * weight, x[i].imag() * weight};
+    }
+  else
+    for (int i = 0; i < count; ++i) {
+      const float weight = weights[i] * signed_scale;
+      to[i] = {x[i].imag() * weight, x[i].real() * -weight};
+    }
+}
+
+void add_weighed(const std::complex<float>* x, const float* weights, int count, std::complex<float>* to) {
+  for (int i = 0; i < count; ++i) to[i] += x[i] * weights[i];
 }
 
 void check_parameters(cv::Size size, int scales, int orientations) {
@@ -98,8 +116,8 @@ void SteerableFilters::sample(int band) {
   std::vector<float>& filter = filters_[band];
   filter.resize(transform_of(band).numbers());
   float* to = filter.data();
-  for (int row = 0; row < own.height; ++row)
-    for (int kx = 0; kx <= own.width / 2; ++kx) {
+  for (int kx = 0; kx <= own.width / 2; ++kx)
+    for (int row = 0; row < own.height; ++row) {
       const double x = 2.0 * kx / picture.width, y = 2.0 * frequency(row, own.height) / picture.height;
       const double r = std::hypot(x, y);
       double value = band == 0 ? rising(r) : 1;
@@ -113,58 +131,80 @@ void SteerableFilters::sample(int band) {
     }
 }
 
-void SteerableFilters::analyse(int band, const std::complex<float>* picture, std::complex<float>* spectrum) const {
-  const RealFft2& own = transform_of(band);
-  const int rows = own.size().height, columns = own.columns(), all_columns = transform().columns();
-  const int turns = band == 0 || band + 1 == bands() ? 0 : orientations_ - 1;
-  const float* filter = filters_[band].data();
-  const float scale = 1.0f / static_cast<float>(own.pixels());
-  const float sign = turns % 4 < 2 ? scale : -scale;
-  for (int row = 0; row < rows; ++row, filter += columns, spectrum += columns) {
-    const auto* from = picture + static_cast<size_t>(row_of(frequency(row, rows), transform().size().height)) * all_columns;
-    if (turns % 2 == 0)
-      for (int x = 0; x < columns; ++x) spectrum[x] = {from[x].real() * (filter[x] * sign), from[x].imag() * (filter[x] * sign)};
-    else
-      for (int x = 0; x < columns; ++x) spectrum[x] = {from[x].imag() * (filter[x] * sign), from[x].real() * -(filter[x] * sign)};
+FftSpectrum SteerableFilters::spectrum_of(const float* picture, size_t stride) const {
+  FftSpectrum spectrum = fft_spectrum(transform().numbers());
+  const size_t height = transform().size().height;
+  transform().forward(picture, stride, [&](const FftColumns& columns) {
+    for (int j = 0; j < columns.count; ++j) std::copy_n(columns[j], height, &spectrum[(columns.first + j) * height]);
+  });
+  return spectrum;
+}
+
+void SteerableFilters::weigh(int band, const FftSpectrum& picture, const FftColumns& columns) const {
+  const int rows = size_of(band).height, all_rows = transform().size().height;
+  const int positive = rows / 2 + 1, negative = rows - positive;
+  const int turns = band > 0 && band + 1 < bands() ? orientations_ - 1 : 0;
+  const float scale = 1.0f / static_cast<float>(transform_of(band).pixels());
+  for (int j = 0; j < columns.count; ++j) {
+    const float* weights = filter(band, columns.first + j);
+    const std::complex<float>* from = &picture[static_cast<size_t>(columns.first + j) * all_rows];
+    weighed(from, weights, turns, scale, positive, columns[j]);
+    weighed(from + (all_rows - negative), weights + positive, turns, scale, negative, columns[j] + positive);
   }
 }
 
-void SteerableFilters::analyse_quadrature(int band, const std::complex<float>* picture,
-                                          std::complex<float>* spectrum) const {
-  analyse(band, picture, spectrum);
+void SteerableFilters::analyse(int band, const FftSpectrum& picture, float* coefficients) const {
+  transform_of(band).inverse([&](const FftColumns& columns) { weigh(band, picture, columns); }, coefficients,
+                             size_of(band).width, RealFft2::Threads::one);
+}
+
+void SteerableFilters::analyse_quadrature(int band, const FftSpectrum& picture, float* coefficients) const {
   const cv::Size own = size_of(band), all = transform().size();
   const double angle = std::numbers::pi * ((band - 1) % orientations_) / orientations_;
-  for (int row = 0; row < own.height; ++row)
-    for (int kx = 0; kx <= own.width / 2; ++kx, ++spectrum) {
-      const double along = std::cos(angle) * kx / all.width + std::sin(angle) * frequency(row, own.height) / all.height;
-      *spectrum = turned(*spectrum, along < 0 ? 3 : 1);
-    }
+  transform_of(band).inverse(
+      [&](const FftColumns& columns) {
+        weigh(band, picture, columns);
+        for (int j = 0; j < columns.count; ++j)
+          for (int row = 0; row < own.height; ++row) {
+            const double along = std::cos(angle) * (columns.first + j) / all.width +
+                                 std::sin(angle) * frequency(row, own.height) / all.height;
+            columns[j][row] = turned(columns[j][row], along < 0 ? 3 : 1);
+          }
+      },
+      coefficients, own.width, RealFft2::Threads::one);
 }
 
-void SteerableFilters::synthesise(const std::vector<const std::complex<float>*>& bands, int first, int last,
-                                  std::complex<float>* picture) const {
-  const int all_rows = transform().size().height, all_columns = transform().columns();
-  const float scale = 1.0f / static_cast<float>(transform().pixels());
-  for (int row = first; row < last; ++row) {
-    std::complex<float>* to = picture + static_cast<size_t>(row) * all_columns;
-    std::fill_n(to, all_columns, std::complex<float>(0));
-    const int ky = frequency(row, all_rows);
-    for (int band = 0; band < static_cast<int>(bands.size()); ++band) {
-      const int rows = size_of(band).height, columns = transform_of(band).columns();
-      const int own_row = row_of(ky, rows);
-      if (own_row < 0 || own_row >= rows || frequency(own_row, rows) != ky) continue;
-      const int turns = band == 0 || band + 1 == this->bands() ? 0 : orientations_ - 1;
-      const std::complex<float>* from = bands[band] + static_cast<size_t>(own_row) * columns;
-      const float* filter = filters_[band].data() + static_cast<size_t>(own_row) * columns;
-      const float sign = turns % 4 < 2 ? scale : -scale;
-      if (turns % 2 == 0)
-        for (int x = 0; x < columns; ++x)
-          to[x] += std::complex<float>(from[x].real() * (filter[x] * sign), from[x].imag() * (filter[x] * sign));
-      else
-        for (int x = 0; x < columns; ++x)
-          to[x] += std::complex<float>(from[x].imag() * -(filter[x] * sign), from[x].real() * (filter[x] * sign));
-    }
+void SteerableFilters::add(int band, const FftRows& rows, const FftColumns& picture) const {
+  const RealFft2& own = transform_of(band);
+  const int count = std::min(picture.count, own.columns() - picture.first);
+  if (count <= 0) return;
+  const FftSpectrum memory = fft_spectrum(RealFft2::most_columns * own.column_stride());
+  const FftColumns columns{picture.first, count, memory.get(), own.column_stride()};
+  own.down(rows, columns);
+  const int all_rows = transform().size().height;
+  const int positive = own.size().height / 2 + 1, negative = own.size().height - positive;
+  for (int j = 0; j < count; ++j) {
+    const float* weights = filter(band, picture.first + j);
+    add_weighed(columns[j], weights, positive, picture[j]);
+    add_weighed(columns[j] + positive, weights + positive, negative, picture[j] + (all_rows - negative));
   }
+}
+
+void SteerableFilters::synthesise(const std::vector<const FftRows*>& bands, const FftColumns& picture) const {
+  const int rows = transform().size().height, lowpass = this->bands() - 1;
+  const int back = 3 * (orientations_ - 1);  // i^n = (-i)^(3n)
+  const float scale = 1.0f / static_cast<float>(transform().pixels());
+  for (int j = 0; j < picture.count; ++j) std::fill_n(picture[j], rows, std::complex<float>(0));
+  for (int band = 1; band < lowpass; ++band) add(band, *bands[band], picture);
+  for (int j = 0; j < picture.count; ++j)
+    for (int row = 0; row < rows; ++row) picture[j][row] = turned(picture[j][row], back);
+  for (const int band : {0, lowpass}) add(band, *bands[band], picture);
+  for (int j = 0; j < picture.count; ++j)
+    for (int row = 0; row < rows; ++row) picture[j][row] *= scale;
+}
+
+void SteerableFilters::synthesise(const std::vector<const FftRows*>& bands, float* picture, size_t stride) const {
+  transform().inverse([&](const FftColumns& columns) { synthesise(bands, columns); }, picture, stride);
 }
 
 }  // namespace stillwater

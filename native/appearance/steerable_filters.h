@@ -35,24 +35,29 @@ class SteerableFilters {
   const RealFft2& transform() const { return levels_.front(); }
   const RealFft2& transform_of(int band) const { return levels_[level_of(band)]; }
 
-  /// The picture's spectrum -> the band's, scaled so that transform_of(band).inverse() gives the coefficients.
-  void analyse(int band, const std::complex<float>* picture, std::complex<float>* spectrum) const;
+  /// Numbers of the picture's spectrum that lie near each other, for analyse(): the columns one after the other.
+  FftSpectrum spectrum_of(const float* picture, size_t stride) const;
+
+  /// The picture's spectrum -> the band's coefficients, in size_of(band).width numbers a row. For one thread.
+  void analyse(int band, const FftSpectrum& picture, float* coefficients) const;
 
   /// The same times -i sgn(cos(theta - pi b / o)): the band's quadrature partner, the imaginary part of a complex pyramid.
-  void analyse_quadrature(int band, const std::complex<float>* picture, std::complex<float>* spectrum) const;
+  void analyse_quadrature(int band, const FftSpectrum& picture, float* coefficients) const;
 
-  /// Adds what all bands' spectra (unnormalised) give to rows [first, last) of the picture's spectrum, which begins as
-  /// anything; scaled so that transform().inverse() gives the picture.
-  void synthesise(const std::vector<const std::complex<float>*>& bands, int first, int last,
-                  std::complex<float>* picture) const;
+  /// All bands, each by transform_of(band).along() -> the picture.
+  void synthesise(const std::vector<const FftRows*>& bands, float* picture, size_t stride) const;
 
  private:
   SteerableFilters(cv::Size size, int scales, int orientations);
   void sample(int band);
+  const float* filter(int band, int kx) const { return &filters_[band][static_cast<size_t>(kx) * size_of(band).height]; }
+  void weigh(int band, const FftSpectrum& picture, const FftColumns& columns) const;
+  void add(int band, const FftRows& rows, const FftColumns& picture) const;
+  void synthesise(const std::vector<const FftRows*>& bands, const FftColumns& picture) const;
 
   int scales_, orientations_;
   std::vector<RealFft2> levels_;             // one a scale, and the lowpass's
-  std::vector<std::vector<float>> filters_;  // one a band, over its level's half spectrum; bands without (-i)^(o-1)
+  std::vector<std::vector<float>> filters_;  // one a band, column by column as its spectrum; bands without (-i)^(o-1)
 };
 
 }  // namespace stillwater

@@ -11,32 +11,18 @@
 namespace stillwater {
 namespace {
 
-/// OpenCV's own memory is aligned; memory of others may not be.
-bool usable(const Plane& plane) { return plane.isContinuous() && fft_aligned(plane[0]); }
-
-/// `spectrum` is lost.
-Plane plane_of(const RealFft2& transform, std::complex<float>* spectrum) {
-  Plane plane(transform.size());
-  if (usable(plane)) {
-    transform.inverse(spectrum, plane[0]);
-  } else {
-    const FftFloats values = fft_floats(transform.pixels());
-    transform.inverse(spectrum, values.get());
-    std::copy_n(values.get(), transform.pixels(), plane[0]);
+/// Planes of these sizes in one piece of memory: it goes back in one piece too, and comes again without fresh pages.
+std::vector<Plane> planes_of(const SteerableFilters& filters) {
+  int numbers = 0;
+  for (int band = 0; band < filters.bands(); ++band) numbers += filters.size_of(band).area();
+  Plane all(1, numbers);
+  std::vector<Plane> planes;
+  for (int band = 0, first = 0; band < filters.bands(); ++band) {
+    const cv::Size size = filters.size_of(band);
+    planes.push_back(all.colRange(first, first + size.area()).reshape(1, size.height));
+    first += size.area();
   }
-  return plane;
-}
-
-FftSpectrum spectrum_of(const RealFft2& transform, const Plane& plane) {
-  FftSpectrum spectrum = fft_spectrum(transform.numbers());
-  if (usable(plane)) {
-    transform.forward(const_cast<float*>(plane[0]), spectrum.get());
-    return spectrum;
-  }
-  const FftFloats values = fft_floats(transform.pixels());
-  for (int y = 0; y < plane.rows; ++y) std::copy_n(plane[y], plane.cols, values.get() + static_cast<size_t>(y) * plane.cols);
-  transform.forward(values.get(), spectrum.get());
-  return spectrum;
+  return planes;
 }
 
 /// The pyramid's planes in the filters' order.
@@ -56,21 +42,20 @@ SteerablePyramid steerable_pyramid(const Plane& image, const SteerableParameters
   if (parameters.complex && parameters.orientations < 2)
     throw BadInput("orientations: 1 is not at least 2, which a complex pyramid needs");
   const auto filters = SteerableFilters::of(image.size(), parameters.scales, parameters.orientations);
-  const FftSpectrum picture = spectrum_of(filters->transform(), image);
+  const FftSpectrum picture = filters->spectrum_of(image[0], image.step1());
 
   SteerablePyramid pyramid;
   pyramid.bands.assign(parameters.scales, std::vector<Plane>(parameters.orientations));
-  if (parameters.complex) pyramid.quadrature = pyramid.bands;
+  const std::vector<Plane> coefficients = planes_of(*filters);
   const auto planes = in_a_row(pyramid);
+  for (int band = 0; band < filters->bands(); ++band) *planes[band] = coefficients[band];
+  if (parameters.complex) pyramid.quadrature = pyramid.bands;
   parallel_rows(filters->bands(), 1, [&](int band, int) {
-    const RealFft2& transform = filters->transform_of(band);
-    const FftSpectrum spectrum = fft_spectrum(transform.numbers());
-    filters->analyse(band, picture.get(), spectrum.get());
-    *planes[band] = plane_of(transform, spectrum.get());
+    filters->analyse(band, picture, (*planes[band])[0]);
     if (!parameters.complex || band == 0 || band + 1 == filters->bands()) return;
-    filters->analyse_quadrature(band, picture.get(), spectrum.get());
-    pyramid.quadrature[(band - 1) / parameters.orientations][(band - 1) % parameters.orientations] =
-        plane_of(transform, spectrum.get());
+    Plane& partner = pyramid.quadrature[(band - 1) / parameters.orientations][(band - 1) % parameters.orientations];
+    partner = Plane(filters->size_of(band));
+    filters->analyse_quadrature(band, picture, partner[0]);
   });
   return pyramid;
 }
@@ -89,17 +74,15 @@ Plane collapse(const SteerablePyramid& pyramid) {
                      " is not this band's size, " + std::to_string(filters->size_of(band).width) + " x " +
                      std::to_string(filters->size_of(band).height));
 
-  std::vector<FftSpectrum> spectra(filters->bands());
-  parallel_rows(filters->bands(), 1,
-                [&](int band, int) { spectra[band] = spectrum_of(filters->transform_of(band), *planes[band]); });
-  std::vector<const std::complex<float>*> bands;
-  for (const FftSpectrum& spectrum : spectra) bands.push_back(spectrum.get());
-
-  const RealFft2& transform = filters->transform();
-  const FftSpectrum picture = fft_spectrum(transform.numbers());
-  parallel_rows(transform.size().height, 32,
-                [&](int first, int last) { filters->synthesise(bands, first, last, picture.get()); });
-  return plane_of(transform, picture.get());
+  std::vector<FftRows> rows(filters->bands());
+  parallel_rows(filters->bands(), 1, [&](int band, int) {
+    rows[band] = filters->transform_of(band).along((*planes[band])[0], planes[band]->step1());
+  });
+  std::vector<const FftRows*> bands;
+  for (const FftRows& band : rows) bands.push_back(&band);
+  Plane picture(filters->transform().size());
+  filters->synthesise(bands, picture[0], picture.cols);
+  return picture;
 }
 
 }  // namespace stillwater

@@ -1,6 +1,7 @@
 #include "appearance/texture_pyramid.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "appearance/laplacian_pyramid.h"
@@ -56,31 +57,26 @@ class SteerableTexture final : public TexturePyramid {
       axes_.push_back({CellAxis(frame.width, grid.width, own.width, static_cast<double>(all.width) / own.width),
                        CellAxis(frame.height, grid.height, own.height, static_cast<double>(all.height) / own.height)});
     }
-    for (FftSpectrum& spectrum : pictures_) spectrum = fft_spectrum(filters_->transform().numbers());
-    for (FftFloats& plane : padded_) plane = fft_floats(filters_->transform().pixels());
-    for (int i = 0; i < channels * bands(); ++i) {
-      spectra_.push_back(fft_spectrum(filters_->transform_of(i / channels).numbers()));
-      values_.push_back(fft_floats(filters_->transform_of(i / channels).pixels()));
-    }
+    for (Plane& plane : padded_) plane.create(all);
+    for (int i = 0; i < channels * bands(); ++i) values_.emplace_back(filters_->size_of(i / channels));
+    rows_.resize(values_.size());
   }
 
   int bands() const override { return filters_->bands(); }
+  int level_of(int band) const override { return filters_->level_of(band); }
 
   void change_bands(const Change& change) override {
-    const RealFft2& transform = filters_->transform();
-    parallel_rows(channels, 1, [&](int channel, int) {
-      pad(planes[channel], padded_[channel].get());
-      transform.forward(padded_[channel].get(), pictures_[channel].get());
-    });
+    std::array<FftSpectrum, channels> pictures;
+    for (int channel = 0; channel < channels; ++channel) {
+      pad(planes[channel], padded_[channel][0]);
+      pictures[channel] = filters_->spectrum_of(padded_[channel][0], padded_[channel].cols);
+    }
     parallel_rows(channels * bands(), 1, [&](int i, int) {
       const int band = i / channels, channel = i % channels;
-      const RealFft2& own = filters_->transform_of(band);
-      filters_->analyse(band, pictures_[channel].get(), spectra_[i].get());
-      own.inverse(spectra_[i].get(), values_[i].get());
-      const cv::Size size = own.size();
-      change(channel, band, {values_[i].get(), size.width, size.height, static_cast<size_t>(size.width)}, axes_[band].x,
-             axes_[band].y);
-      own.forward(values_[i].get(), spectra_[i].get());
+      const Samples samples = samples_of(values_[i]);
+      filters_->analyse(band, pictures[channel], samples.data);
+      change(channel, band, samples, axes_[band].x, axes_[band].y);
+      rows_[i] = filters_->transform_of(band).along(samples.data, samples.stride);
     });
     collapse();
   }
@@ -103,31 +99,20 @@ class SteerableTexture final : public TexturePyramid {
   }
 
   void collapse() {
-    const RealFft2& transform = filters_->transform();
-    const int rows = transform.size().height;
-    constexpr int strip = 64;
-    const int strips = (rows + strip - 1) / strip;
-    parallel_rows(channels * strips, 1, [&](int i, int) {
-      const int channel = i / strips, first = i % strips * strip;
-      std::vector<const std::complex<float>*> bands;
-      for (size_t band = channel; band < spectra_.size(); band += channels) bands.push_back(spectra_[band].get());
-      filters_->synthesise(bands, first, std::min(rows, first + strip), pictures_[channel].get());
-    });
-    parallel_rows(channels, 1, [&](int channel, int) {
-      transform.inverse(pictures_[channel].get(), padded_[channel].get());
-      for (int y = 0; y < frame_.height; ++y)
-        std::copy_n(padded_[channel].get() + static_cast<size_t>(y) * transform.size().width, frame_.width,
-                    planes[channel][y]);
-    });
+    for (int channel = 0; channel < channels; ++channel) {
+      std::vector<const FftRows*> bands;
+      for (size_t band = channel; band < rows_.size(); band += channels) bands.push_back(&rows_[band]);
+      filters_->synthesise(bands, padded_[channel][0], padded_[channel].cols);
+      for (int y = 0; y < frame_.height; ++y) std::copy_n(padded_[channel][y], frame_.width, planes[channel][y]);
+    }
   }
 
   std::shared_ptr<const SteerableFilters> filters_;
   std::vector<Beyond> right_, below_;
   std::vector<Axes> axes_;  // one a band
-  std::array<FftSpectrum, channels> pictures_;
-  std::array<FftFloats, channels> padded_;
-  std::vector<FftSpectrum> spectra_;  // band by band, channels within
-  std::vector<FftFloats> values_;
+  std::array<Plane, channels> padded_;
+  std::vector<Plane> values_;  // band by band, channels within
+  std::vector<FftRows> rows_;  // of them
 };
 
 class LaplacianTexture final : public TexturePyramid {
@@ -142,6 +127,7 @@ class LaplacianTexture final : public TexturePyramid {
   }
 
   int bands() const override { return scales_ + 1; }
+  int level_of(int band) const override { return band; }
 
   void change_bands(const Change& change) override {
     parallel_rows(channels, 1, [&](int channel, int) {
@@ -169,6 +155,15 @@ std::unique_ptr<TexturePyramid> TexturePyramid::steerable(cv::Size frame, cv::Si
 
 std::unique_ptr<TexturePyramid> TexturePyramid::laplacian(cv::Size frame, cv::Size grid, int scales) {
   return std::make_unique<LaplacianTexture>(frame, grid, scales);
+}
+
+void TexturePyramid::weigh(const Plane& alpha) {
+  weights_.assign(1, alpha);
+  while (static_cast<int>(weights_.size()) <= level_of(bands() - 1)) {
+    Plane half;
+    cv::pyrDown(weights_.back(), half);
+    weights_.push_back(half);
+  }
 }
 
 void TexturePyramid::change_pixels(const Change& change) {

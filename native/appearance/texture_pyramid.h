@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "appearance/cell_curves.h"
 #include "core/image.h"
@@ -32,11 +33,20 @@ class TexturePyramid {
   /// Takes the planes apart, changes all bands, and puts them together again.
   virtual void change_bands(const Change& change) = 0;
 
+  /// How much the pixels and a band's samples are seen, of the frame's alpha; empty where it is 1 everywhere.
+  void weigh(const Plane& alpha);
+  Plane pixel_weight() const { return weights_.empty() ? Plane() : weights_.front(); }
+  Plane band_weight(int band) const { return weights_.empty() ? Plane() : weights_[level_of(band)]; }
+
   std::array<Plane, 3> planes;  ///< of the frame's size, to be filled by the caller
 
  protected:
   TexturePyramid(cv::Size frame, cv::Size grid);
+  virtual int level_of(int band) const = 0;  ///< halvings
   cv::Size frame_, grid_;
+
+ private:
+  std::vector<Plane> weights_;  // one a level
 };
 
 }  // namespace stillwater

@@ -68,12 +68,16 @@ TextureTarget described(const FloatArray& picture, std::array<int, 2> grid, int 
 py::array_t<float> there_and_back(const FloatArray& plane) {
   Plane image = as_image<float>(plane, "plane").clone();
   const RealFft2 transform(image.size());
-  const FftFloats values = fft_floats(transform.pixels());
+  const size_t height = image.rows;
   const FftSpectrum spectrum = fft_spectrum(transform.numbers());
-  std::copy_n(image[0], image.total(), values.get());
-  transform.forward(values.get(), spectrum.get());
-  transform.inverse(spectrum.get(), values.get());
-  std::copy_n(values.get(), image.total(), image[0]);
+  transform.forward(image[0], image.cols, [&](const FftColumns& columns) {
+    for (int j = 0; j < columns.count; ++j) std::copy_n(columns[j], height, &spectrum[(columns.first + j) * height]);
+  });
+  transform.inverse(
+      [&](const FftColumns& columns) {
+        for (int j = 0; j < columns.count; ++j) std::copy_n(&spectrum[(columns.first + j) * height], height, columns[j]);
+      },
+      image[0], image.cols);
   return as_array(image);
 }
 

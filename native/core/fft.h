@@ -13,7 +13,7 @@
 ///     --transform along--> real rows
 ///
 /// FFTW's estimated plans are good at one thing, complex lines that are contiguous: so everything is made of those. Two
-/// real rows a and b are transformed as one complex row, a + ib.
+/// real rows a and b are transformed as one complex row, a + ib. The other way the same steps run backwards.
 namespace stillwater {
 
 /// Half spectrum -> real tile (complex to real, unnormalised: a constant spectrum c at (0, 0) gives c everywhere).
@@ -40,19 +40,46 @@ class InverseFft2 {
   std::unique_ptr<State> state_;
 };
 
-/// Memory aligned as FFTW wants it, so that the same plan, and the same bytes, serve every call.
+/// Memory aligned as FFTW wants it, so that the same plan, and the same bytes, serve every call. What is given back is kept for
+/// the next one (16 MB at most): fresh pages cost as much as the transform.
 struct FftFree {
-  void operator()(void* memory) const;
+  size_t count = 0;
+  void operator()(std::complex<float>* memory) const;
 };
-using FftFloats = std::unique_ptr<float[], FftFree>;
 using FftSpectrum = std::unique_ptr<std::complex<float>[], FftFree>;
-FftFloats fft_floats(size_t count);
 FftSpectrum fft_spectrum(size_t count);
-bool fft_aligned(const float* memory);  ///< as memory of fft_floats
+
+/// Columns of a spectrum: `count` of them from kx = `first` on, `stride` numbers apart.
+struct FftColumns {
+  int first, count;
+  std::complex<float>* data;
+  size_t stride;
+
+  std::complex<float>* operator[](int i) const { return data + i * stride; }
+};
+
+/// A plane half way: its rows are transformed, in pairs as one complex line, its columns are not.
+class FftRows {
+ public:
+  FftRows() = default;
+
+ private:
+  friend class RealFft2;
+  friend class InverseFft2;
+  explicit FftRows(cv::Size size);
+  int pairs() const { return (height_ + 1) / 2; }
+  std::complex<float>* line(int pair) const { return lines_.get() + pair * static_cast<size_t>(stride_); }
+  void turn_in(const FftColumns& columns);
+  void turn_out(const FftColumns& columns) const;
+
+  int width_ = 0, height_ = 0, stride_ = 0;
+  FftSpectrum lines_;
+};
 
 /// Real plane <-> half spectrum, any size, neither way normalised: there and back multiplies by the number of pixels.
-/// A spectrum has `height` rows of width / 2 + 1 numbers, kx running from 0; row ky above height / 2 is ky - height.
-/// One object may serve several threads at once, each with its own memory: aligned.
+/// A spectrum has width / 2 + 1 columns of `height` numbers, kx running from 0; number ky above height / 2 is ky - height.
+/// It comes and goes a few columns at a time, so that what is done to them is done while they are near.
+/// One object may serve several threads at once.
 class RealFft2 {
  public:
   /// Sides 1 .. largest_side. Throws BadInput.
@@ -63,15 +90,31 @@ class RealFft2 {
   size_t pixels() const { return static_cast<size_t>(size_.width) * size_.height; }
   size_t numbers() const { return static_cast<size_t>(columns()) * size_.height; }
 
-  /// `plane` stays as it is.
-  void forward(float* plane, std::complex<float>* spectrum) const;
+  /// Together they take each column once; called by several threads, each with its own columns.
+  using Take = std::function<void(const FftColumns& columns)>;
 
-  /// `spectrum` is lost.
-  void inverse(std::complex<float>* spectrum, float* plane) const;
+  /// Who calls may be one of several threads already.
+  enum class Threads { one, several };
+
+  /// `stride`: numbers from one row to the next.
+  void forward(const float* plane, size_t stride, const Take& take, Threads threads = Threads::several) const;
+
+  /// Its two steps, for one thread: the rows, then any of the columns, up to most_columns at a time.
+  FftRows along(const float* plane, size_t stride) const;
+  void down(const FftRows& rows, const FftColumns& columns) const;
+  static constexpr int most_columns = 16;  ///< two cache lines of the rows
+  size_t column_stride() const;           ///< that suits FFTW and the cache
+
+  /// `fill` is to write the columns that it is given of the spectrum of a real plane: H(0, -ky) = conj H(0, ky), the same at
+  /// width / 2.
+  using Fill = std::function<void(const FftColumns& columns)>;
+  void inverse(const Fill& fill, float* plane, size_t stride, Threads threads = Threads::several) const;
 
  private:
+  void rows_forward(const float* plane, size_t stride, int first, int last, FftRows& rows) const;
+
   cv::Size size_;
-  const void *forward_, *inverse_;  // FFTW's plans
+  const void *along_forward_, *along_inverse_, *down_forward_, *down_inverse_;  // FFTW's plans of a row and a column
 };
 
 }  // namespace stillwater

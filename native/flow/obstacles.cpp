@@ -24,9 +24,36 @@ Plane distance_to_zero(const Bytes& inside) {
   return distance;
 }
 
+/// Pixels up to which a reach is felt: the distances above are a few hundredths off.
+int felt(float reach) { return static_cast<int>(std::ceil(1.1f * (reach + 1))) + 1; }
+
+/// The box around the pixels of value 255, `more` px larger on each side as far as the picture goes.
+cv::Rect box_around(const Bytes& some, int more) {
+  const cv::Rect box = cv::boundingRect(some);
+  return cv::Rect(box.x - more, box.y - more, box.width + 2 * more, box.height + 2 * more) & cv::Rect({0, 0}, some.size());
+}
+
 float smooth_step(float t) {
   const float x = std::clamp(t, 0.0f, 1.0f);
   return x * x * (3 - 2 * x);
+}
+
+/// wall_along() of a part of the picture that holds all that is outside, and what is near it.
+void lay_wall(const Bytes& inside, float reach, int window, Field wall) {
+  const Plane within = distance_to_zero(inside), without = distance_to_zero(~inside);
+  Plane smooth = within - without;  // positive inside
+  cv::blur(smooth, smooth, {window, window}, {-1, -1}, cv::BORDER_REFLECT);
+  cv::blur(smooth, smooth, {window, window}, {-1, -1}, cv::BORDER_REFLECT);
+  parallel_pixels(inside.size(), [&](int y, int x) {
+    const float share = 1 - smooth_step((within(y, x) - 1) / reach);
+    if (share <= 0) return;
+    const int left = std::max(0, x - 1), right = std::min(inside.cols - 1, x + 1);
+    const int above = std::max(0, y - 1), below = std::min(inside.rows - 1, y + 1);
+    const cv::Vec2f slope((smooth(y, right) - smooth(y, left)) / std::max(1, right - left),
+                          (smooth(below, x) - smooth(above, x)) / std::max(1, below - above));
+    const float steepness = std::sqrt(slope.dot(slope));
+    wall(y, x) = slope * (std::sqrt(share) / std::max(steepness, flattest));
+  });
 }
 
 }  // namespace
@@ -44,34 +71,22 @@ Field wall_along(const Plane& matte) {
   if (covered == static_cast<int>(matte.total())) return wall;
 
   const auto reach = static_cast<float>(obstacle_reach(matte.size()));
-  const Plane within = distance_to_zero(inside), without = distance_to_zero(~inside);
-  const Plane distance = within - without;  // positive inside
-  Plane smooth;
   const int window = 2 * static_cast<int>(std::ceil(reach / 4)) + 1;
-  cv::blur(distance, smooth, {window, window}, {-1, -1}, cv::BORDER_REFLECT);
-  cv::blur(smooth, smooth, {window, window}, {-1, -1}, cv::BORDER_REFLECT);
-  parallel_pixels(matte.size(), [&](int y, int x) {
-    const float share = 1 - smooth_step((within(y, x) - 1) / reach);
-    if (share <= 0) return;
-    const int left = std::max(0, x - 1), right = std::min(matte.cols - 1, x + 1);
-    const int above = std::max(0, y - 1), below = std::min(matte.rows - 1, y + 1);
-    const cv::Vec2f slope((smooth(y, right) - smooth(y, left)) / std::max(1, right - left),
-                          (smooth(below, x) - smooth(above, x)) / std::max(1, below - above));
-    const float steepness = std::sqrt(slope.dot(slope));
-    wall(y, x) = slope * (std::sqrt(share) / std::max(steepness, flattest));
-  });
+  const cv::Rect near = box_around(~inside, felt(reach) + window + 1);
+  lay_wall(inside(near), reach, window, wall(near));
   return wall;
 }
 
 Plane stillness_factor(const Plane& freeze) {
   check::each_in_range("freeze", freeze, 0, 1);
-  const Bytes moving = freeze < 0.5f;
+  const Bytes held = freeze >= 0.5f;
   Plane factor = 1.0f - freeze;
-  const auto total = static_cast<int>(freeze.total());
-  if (cv::countNonZero(moving) == total) return factor;
+  if (cv::countNonZero(held) == 0) return factor;
   const auto reach = static_cast<float>(obstacle_reach(freeze.size()));
-  const Plane away = distance_to_zero(moving);
-  parallel_pixels(freeze.size(), [&](int y, int x) { factor(y, x) *= smooth_step(away(y, x) / reach) * (moving(y, x) ? 1 : 0); });
+  const cv::Rect near = box_around(held, felt(reach));
+  const Plane away = distance_to_zero(~held(near));
+  Plane slowed = factor(near);
+  parallel_pixels(near.size(), [&](int y, int x) { slowed(y, x) *= smooth_step(away(y, x) / reach); });
   return factor;
 }
 

@@ -166,8 +166,10 @@ Field finished_orientation(const Ready& ready, const std::vector<Drawn>& all, cv
 
 Plane finished_speed(const Ready& ready, const std::vector<Drawn>& all, cv::Size picture) {
   const bool all_local = std::all_of(all.begin(), all.end(), [](const Drawn& one) { return one.stroke->local; });
-  Plane speed(picture, static_cast<float>(all_local ? 0 : FlowStroke().speed));
-  if (!ready.pixels.empty()) {
+  Plane speed;
+  if (ready.pixels.empty()) {
+    speed = Plane(picture, static_cast<float>(all_local ? 0 : FlowStroke().speed));
+  } else {
     const auto slower = [](const StrokePixel& a, const StrokePixel& b) { return a.value[0] < b.value[0]; };
     const auto [slowest, fastest] = std::minmax_element(ready.pixels.begin(), ready.pixels.end(), slower);
     const RadialInterpolation between = interpolated(weakened(ready.pixels, false, ready.accuracy), false, ready.accuracy);
@@ -180,11 +182,32 @@ Plane finished_speed(const Ready& ready, const std::vector<Drawn>& all, cv::Size
 
 void slide_along(PaintedFlow& flow) {
   parallel_pixels(flow.speed.size(), [&](int y, int x) {
-    const cv::Vec2f along = slide(flow.orientation(y, x), flow.wall(y, x));
+    const cv::Vec2f& wall = flow.wall(y, x);
+    if (wall[0] == 0 && wall[1] == 0) return;
+    const cv::Vec2f along = slide(flow.orientation(y, x), wall);
     const float size = std::sqrt(along.dot(along));
     flow.speed(y, x) *= size;
     if (size > 1e-4f) flow.orientation(y, x) = along * (1 / size);
   });
+}
+
+/// What bound and freeze say; empty where there is none.
+struct Obstacles {
+  Field wall;
+  Plane stillness;
+};
+
+void obey(PaintedFlow& flow, const Obstacles& obstacles) {
+  if (!obstacles.wall.empty()) {
+    flow.wall = obstacles.wall;
+    slide_along(flow);
+  }
+  if (!obstacles.stillness.empty()) cv::multiply(flow.speed, obstacles.stillness, flow.speed);
+}
+
+void check_obstacles(const Plane& bound, const Plane& freeze, const PaintedFlow& flow) {
+  if (!bound.empty()) check::same_size("bound", bound, "picture", flow.speed);
+  if (!freeze.empty()) check::same_size("freeze", freeze, "picture", flow.speed);
 }
 
 }  // namespace
@@ -200,26 +223,23 @@ Plane paint_speed(const std::vector<FlowStroke>& strokes, cv::Size picture) {
 }
 
 void bound_flow(PaintedFlow& flow, const Plane& bound, const Plane& freeze) {
-  if (!bound.empty()) {
-    check::same_size("bound", bound, "picture", flow.speed);
-    flow.wall = wall_along(bound);
-    slide_along(flow);
-  }
-  if (!freeze.empty()) {
-    check::same_size("freeze", freeze, "picture", flow.speed);
-    flow.speed = flow.speed.mul(stillness_factor(freeze));
-  }
+  check_obstacles(bound, freeze, flow);
+  obey(flow, {bound.empty() ? Field() : wall_along(bound), freeze.empty() ? Plane() : stillness_factor(freeze)});
 }
 
 PaintedFlow paint_flow(const std::vector<FlowStroke>& strokes, cv::Size picture, const Plane& bound, const Plane& freeze) {
   const std::vector<Drawn> all = drawn(strokes, picture);
   const Ready orientation = ready_orientation(all, picture), speed = ready_speed(all, picture);
   PaintedFlow flow;
-  parallel_rows(2, 1, [&](int part, int) {
+  Obstacles obstacles;
+  parallel_rows(4, 1, [&](int part, int) {
     if (part == 0) flow.orientation = finished_orientation(orientation, all, picture);
-    else flow.speed = finished_speed(speed, all, picture);
+    if (part == 1) flow.speed = finished_speed(speed, all, picture);
+    if (part == 2 && !bound.empty()) obstacles.wall = wall_along(bound);
+    if (part == 3 && !freeze.empty()) obstacles.stillness = stillness_factor(freeze);
   });
-  bound_flow(flow, bound, freeze);
+  check_obstacles(bound, freeze, flow);
+  obey(flow, obstacles);
   return flow;
 }
 

@@ -44,14 +44,15 @@ std::array<std::array<float, taps>, count> lagrange_weights(double offset) {
 
 void evaluate(const RadialInterpolation& interpolation, int channels, Grid& grid) {
   parallel_rows(grid.rows, 2, [&](int first, int last) {
-    std::vector<double> apart(grid.columns);
+    std::vector<float> apart(grid.columns);
     for (int y = first; y < last; ++y) {
       for (int c = 0; c < channels; ++c) std::fill_n(grid.row(c, y), grid.columns, interpolation.constant()[c]);
       for (std::size_t k = 0; k < interpolation.centres().size(); ++k) {
         const Point centre = interpolation.centres()[k];
-        const double dy = grid.at(y) - centre.y, square = dy * dy;
+        const auto left = static_cast<float>(grid.start - centre.x), dy = static_cast<float>(grid.at(y) - centre.y);
+        const float square = dy * dy, pitch = static_cast<float>(grid.pitch);
         for (int x = 0; x < grid.columns; ++x) {
-          const double dx = grid.at(x) - centre.x;
+          const float dx = left + static_cast<float>(x) * pitch;
           apart[x] = std::sqrt(dx * dx + square);
         }
         for (int c = 0; c < channels; ++c) {

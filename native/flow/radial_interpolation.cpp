@@ -134,25 +134,27 @@ RadialInterpolation::RadialInterpolation(const std::vector<Point>& places, const
     for (std::size_t i = 0; i < centres_.size(); ++i) constant_ += weights_.row(i) * distance(centres_[i], centres_[0]);
     const int more = options.most_centres - static_cast<int>(centres_.size());
     if (all || more <= 0) return;
-    const Eigen::VectorXd misses = (at(places) - values).rowwise().norm();
+    const Eigen::VectorXd misses = (values_at<float>(places) - values).rowwise().norm();
     next = missed_most(misses, system.chosen(), options.tolerance, more);
   }
 }
 
-Eigen::MatrixXd RadialInterpolation::at(const std::vector<Point>& places) const {
+/// Distances are taken in `Number`.
+template <class Number>
+Eigen::MatrixXd RadialInterpolation::values_at(const std::vector<Point>& places) const {
   const int count = static_cast<int>(places.size());
   const Eigen::Index columns = weights_.cols();
   Eigen::MatrixXd values(count, columns);
   parallel_rows(count, grain, [&](int first, int last) {
     const int some = last - first;
-    std::vector<double> x(some), y(some), apart(some);
-    for (int i = 0; i < some; ++i) x[i] = places[first + i].x, y[i] = places[first + i].y;
+    std::vector<Number> x(some), y(some), apart(some);
+    for (int i = 0; i < some; ++i) x[i] = static_cast<Number>(places[first + i].x), y[i] = static_cast<Number>(places[first + i].y);
     for (Eigen::Index c = 0; c < columns; ++c)
       for (int i = 0; i < some; ++i) values(first + i, c) = constant_[c];
     for (std::size_t k = 0; k < centres_.size(); ++k) {
-      const double at_x = centres_[k].x, at_y = centres_[k].y;
+      const auto at_x = static_cast<Number>(centres_[k].x), at_y = static_cast<Number>(centres_[k].y);
       for (int i = 0; i < some; ++i) {
-        const double dx = x[i] - at_x, dy = y[i] - at_y;
+        const Number dx = x[i] - at_x, dy = y[i] - at_y;
         apart[i] = std::sqrt(dx * dx + dy * dy);
       }
       for (Eigen::Index c = 0; c < columns; ++c) {
@@ -164,5 +166,7 @@ Eigen::MatrixXd RadialInterpolation::at(const std::vector<Point>& places) const 
   });
   return values;
 }
+
+Eigen::MatrixXd RadialInterpolation::at(const std::vector<Point>& places) const { return values_at<double>(places); }
 
 }  // namespace stillwater

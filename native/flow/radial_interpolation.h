@@ -36,6 +36,9 @@ class RadialInterpolation {
   const Eigen::RowVectorXd& constant() const { return constant_; }
 
  private:
+  template <class Number>
+  Eigen::MatrixXd values_at(const std::vector<Point>& places) const;
+
   std::vector<Point> centres_;
   Eigen::MatrixXd weights_;
   Eigen::RowVectorXd constant_;

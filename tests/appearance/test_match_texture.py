@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 import stillwater
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from pyrtools.pyramids import SteerablePyramidFreq
 from scipy.ndimage import gaussian_filter, zoom
 from stillwater import _stillwater as engine
@@ -91,6 +93,13 @@ def test_a_picture_matched_to_itself_stays():
         assert np.abs(made - picture).max() < 1e-5
 
 
+@pytest.mark.parametrize("shape", [(128, 128), (121, 151), (200, 170)])
+def test_a_picture_matched_to_itself_stays_where_samples_lie_at_the_borders_of_bins(shape):
+    picture = np.clip(colours(streaks(*shape)), 0, 1)
+    made = stillwater.match_texture(picture, picture, repetitions=2)[..., :3]
+    assert np.abs(made - picture).max() < 1e-5
+
+
 def textured(weight):
     """A texture whose contrast is `weight`, and noise to be matched to it."""
     plane = 0.5 + weight * RNG.standard_normal(weight.shape)
@@ -140,6 +149,81 @@ def test_stylize_blends():
 def test_alpha_stays():
     frame = np.concatenate([noise_frame(64, 80), RNG.uniform(0.2, 1, (64, 80, 1))], axis=2).astype(np.float32)
     np.testing.assert_array_equal(stillwater.match_texture(frame, colours(streaks(64, 80)))[..., 3], frame[..., 3])
+
+
+def torn(picture, seed=0):
+    """With a matte that covers some three fifths, partly in shreds, soft at its outline."""
+    height, width = picture.shape[:2]
+    grain = np.random.default_rng(seed).standard_normal((height, width))
+    y, x = np.fft.fftfreq(height)[:, None], np.fft.fftfreq(width)[None]
+    smooth = np.fft.ifft2(np.fft.fft2(grain) * np.exp(-((x**2 + y**2) * 40**2))).real
+    alpha = np.clip(0.5 + 4 * (smooth / smooth.std() + 0.3), 0, 1)
+    return np.dstack([picture, alpha]).astype(np.float32)
+
+
+@settings(max_examples=15, deadline=None)
+@given(seed=st.integers(0, 2**31), under=st.floats(0, 50), matching=st.sampled_from(["steerable", "laplacian"]))
+def test_colours_that_are_not_seen_change_nothing(seed, under, matching):
+    """Neither the picture's nor the frame's, premultiplied or not."""
+    rng = np.random.default_rng(seed)
+    frame, picture = torn(noise_frame(64, 80, seed), seed), torn(np.clip(colours(streaks(72, 64, seed)), 0, 1), seed + 1)
+
+    def painted_under(image):
+        hidden = image[..., 3] == 0
+        image = image.copy()
+        image[hidden, :3] = under * rng.random((np.count_nonzero(hidden), 3))
+        return image
+
+    def matched(change):
+        seen_frame, seen_picture = (np.dstack([image[..., :3] * image[..., 3:], image[..., 3]]) for image in (frame, picture))
+        target = engine.TextureTarget(change(seen_picture), (2, 1), 0, 4, matching)
+        return engine.match_texture(change(seen_frame), target, 1, 1.0)
+
+    np.testing.assert_array_equal(matched(painted_under), matched(np.copy))
+    np.testing.assert_array_equal(
+        stillwater.match_texture(painted_under(frame), painted_under(picture), repetitions=1, matching=matching),
+        stillwater.match_texture(frame, picture, repetitions=1, matching=matching),
+    )
+
+
+@pytest.mark.parametrize("matching", ["steerable", "laplacian"])
+def test_what_is_seen_has_the_histogram_of_what_is_seen(matching):
+    """Holes in the frame, in the picture, in both: as if there were none. Counted as black they would darken all of it."""
+    picture = np.clip(colours(streaks(192, 192, seed=3)), 0, 1)
+    frame = noise_frame(192, 192)
+    ranks = np.linspace(0.02, 0.98, 25)
+    for change_frame, change_picture in [(torn, np.asarray), (np.asarray, torn), (torn, torn)]:
+        wanted, given = change_picture(picture), change_frame(frame)
+        made = stillwater.match_texture(given, wanted, grid=(1, 1), matching=matching)
+        solid = [image[image[..., -1] == 1] if image.shape[2] == 4 else image.reshape(-1, 3) for image in (made, wanted)]
+        ours, theirs = (np.quantile(pixels[:, :3], ranks, axis=0) for pixels in solid)
+        np.testing.assert_allclose(ours, theirs, atol=0.02)
+
+
+@pytest.mark.parametrize("matching", ["steerable", "laplacian"])
+def test_a_picture_with_holes_matched_to_itself_stays(matching):
+    picture = torn(np.clip(colours(streaks(120, 150)), 0, 1))
+    made = stillwater.match_texture(picture, picture, repetitions=2, matching=matching)
+    seen = picture[..., 3] > 0.01
+    assert np.abs(made - picture)[seen].max() < 1e-4
+
+
+def test_cells_in_which_nothing_is_seen_take_the_whole_picture_s_values():
+    picture = torn(np.clip(colours(streaks(120, 150)), 0, 1))
+    picture[:, :75, 3] = 0
+    picture[:, 75:, 3] = 1
+    made = stillwater.match_texture(noise_frame(120, 150), picture, grid=(3, 2))
+    left, right = made[:, :50, :3], picture[:, 75:, :3]
+    assert np.abs(np.median(left, axis=(0, 1)) - np.median(right, axis=(0, 1))).max() < 0.03
+    assert left.std() == pytest.approx(right.std(), rel=0.2)
+
+
+def test_a_picture_that_is_not_seen_is_refused_and_such_a_frame_stays():
+    nothing = np.zeros((64, 64, 4), np.float32)
+    with pytest.raises(stillwater.BadInput, match="picture: one of which nothing is seen, alpha 0 everywhere, is not a texture"):
+        describe_texture(nothing)
+    made = stillwater.match_texture(nothing, colours(streaks(64, 64)), repetitions=1)
+    np.testing.assert_array_equal(made, nothing)
 
 
 def test_a_described_picture_serves_frames_of_other_sizes():

@@ -138,7 +138,7 @@ def match_texture(
     """Give a frame the texture of a picture: the histograms of its pyramid's bands and of its pixels, place by place.
 
     Colours are matched along the principal axes of the picture's colours. Cells share one pyramid of the whole frame,
-    and their statistics run into each other: no cell has a border.
+    and their statistics run into each other: no cell has a border. Pixels count as much as they are seen (alpha).
 
     Args:
         frame: height x width x 3 or 4, display-referred, straight alpha (which stays). At least 16 px a side.
