@@ -63,7 +63,8 @@ ExamplePlate::ExamplePlate(const Plate& plate, const ExampleSetup& setup, const 
       mean_velocity_(mean_of(velocities_)),
       freeze_(scaled_plane(setup.freeze, plate)),
       carried_(carried_over(plate, setup, velocities_)),
-      memory_(setup.memory) {
+      memory_(setup.memory),
+      still_(std::all_of(velocities_.begin(), velocities_.end(), [](const Field& field) { return cv::countNonZero(field.reshape(1)) == 0; })) {
   parameters_.average.average_blur *= plate.scale;
   parameters_.grid = grid_of(setup.look, plate);
   parameters_.matched = parameters_.matched && parameters_.repetitions > 0 && parameters_.stylize > 0;
@@ -126,6 +127,7 @@ Rgba ExamplePlate::film(const ExampleNow& now) const {
 
 std::unique_ptr<LayerMotion> ExamplePlate::at(const ExampleNow& now) const {
   check_example(now, fields());
+  if (still_) return displaced_layer(plate_, {}, {});
   return std::make_unique<ExampleLayer>(*this, plate_, now);
 }
 

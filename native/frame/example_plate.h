@@ -47,7 +47,7 @@ struct ExampleLook {
 ///     F'(s) = A' + slope luma(D'(s)) + mean C, then matched to the picture's texture by the look's curves
 ///
 /// Without an outline: the colours are those of extend_colours(), coverage is the still layer's. What is frozen shows the
-/// picture.
+/// picture, and so does a layer whose flows stand everywhere.
 class ExamplePlate {
  public:
   /// Without a look, only make_look() can be asked for. Throws BadInput where sizes or numbers do not fit.
@@ -78,6 +78,7 @@ class ExamplePlate {
   Plane freeze_;
   CarriedResiduals carried_;
   std::shared_ptr<const void> memory_;
+  bool still_;  ///< no flow moves anything
   TextureTarget target_;
   ExampleLook look_;
 };

@@ -133,13 +133,15 @@ SENTENCES = [
     ((*SKY, "motion"), {**FLOW, "period": 0}, "layers[4].motion.period: 0 is not above 0 (frames)"),
     # what has no engine yet
     ((*SKY, "motion"), {**FLOW, "outline": {"moving": True}},
-     "layers[4].motion.outline.moving: true has no engine yet (a flow's outline stands still: false)"),
+     "layers[4].motion.outline.moving: true has no engine yet (a fluid's outline stands still: false)"),
     ((*SKY, "motion"), {"type": "example", "clip": "c.mp4"},
-     'layers[4].motion.type: "example" has no engine yet (these have: still, sway, ripple, bob, drift, flow)'),
+     "layers[4].motion.strokes: none; where does the layer flow? (at least one is needed)"),
+    ((*SKY, "motion"), {"type": "example", "clip": "c.mp4", "strokes": [{"points": [[1, 1], [9, 9]]}], "outline": {"moving": True}},
+     "layers[4].motion.outline.moving: true has no engine yet (a fluid's outline stands still: false)"),
     ((*SKY, "motion"), {"type": "library", "library": "l"},
-     'layers[4].motion.type: "library" has no engine yet (these have: still, sway, ripple, bob, drift, flow)'),
+     'layers[4].motion.type: "library" has no engine yet (these have: still, sway, ripple, bob, drift, flow, example)'),
     ((*SKY, "motion"), {"type": "keyframes", "keys": [{"frame": 1, "file": "k.png"}], "guide": {"strokes": []}},
-     'layers[4].motion.type: "keyframes" has no engine yet (these have: still, sway, ripple, bob, drift, flow)'),
+     'layers[4].motion.type: "keyframes" has no engine yet (these have: still, sway, ripple, bob, drift, flow, example)'),
 ]
 
 

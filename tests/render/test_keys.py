@@ -28,7 +28,7 @@ def key_list(recipe, digests=None, size=(48, 36), scale=1.0):
     recipe = parse(recipe).recipe
     names = ["picture.png", "labels.png", "tree.png", "other.png"]
     stack = stack_key(recipe, {name: name for name in names} | (digests or {}))
-    keys = FrameKeys(Timeline(recipe), stack, size, scale)
+    keys = FrameKeys(Timeline(recipe), stack, size, scale, {})
     return [keys.of(frame) for frame in FRAMES]
 
 

@@ -1,0 +1,82 @@
+"""How alike two films of a fluid are, as a viewer may tell: by their rhythm, their speed and their texture.
+
+Films are frames x height x width, luma; a mask says which pixels count.
+"""
+
+import numpy as np
+import stillwater
+
+OCTAVES = 4
+
+
+def spectrum(film: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """Mean power of the pixels' changes in time, octave by octave from the fastest down, in dB."""
+    series = film[:, mask] - film[:, mask].mean(axis=0)
+    window = np.hanning(len(series))[:, None]
+    power = (np.abs(np.fft.rfft(series * window, axis=0)) ** 2).mean(axis=1)
+    top, octaves = len(power), []
+    for _ in range(OCTAVES):
+        low = top // 2
+        octaves.append(power[max(low, 1) : top].mean())
+        top = low
+    return 10 * np.log10(np.maximum(octaves, 1e-12))
+
+
+def spectrum_off(film, real, mask) -> float:
+    """The largest difference of an octave, dB."""
+    return float(np.abs(spectrum(film, mask) - spectrum(real, mask)).max())
+
+
+def speeds(film: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """How fast what is seen moves, px/frame, of every fourth pair of frames."""
+    pairs = range(0, len(film) - 1, 4)
+    return np.concatenate([np.hypot(*np.moveaxis(stillwater.optical_flow(film[i], film[i + 1]), -1, 0))[mask] for i in pairs])
+
+
+def apart(a: np.ndarray, b: np.ndarray) -> float:
+    """How far two sets of numbers must be moved to be one another, on the mean (earth mover's distance)."""
+    ranks = np.linspace(0, 1, 401)
+    return float(np.abs(np.quantile(a, ranks) - np.quantile(b, ranks)).mean())
+
+
+def speeds_off(film, real, mask) -> float:
+    """Distance of the histograms of speed, px/frame."""
+    return apart(speeds(film, mask), speeds(real, mask))
+
+
+def bands_off(film, real, mask) -> float:
+    """Distance of the histograms of a steerable pyramid's bands, of the real film's own deviation, their mean."""
+    found = []
+    for frames in (film, real):
+        pyramids = [stillwater.steerable_pyramid(frames[i], scales=3, orientations=4) for i in range(0, len(frames), 8)]
+        found.append(pyramids)
+    off = []
+    for band in range(len(_bands(found[0][0]))):
+        ours, theirs = (np.concatenate([_inside(_bands(pyramid)[band], mask) for pyramid in pyramids]) for pyramids in found)
+        off.append(apart(ours, theirs) / max(theirs.std(), 1e-6))
+    return float(np.mean(off))
+
+
+def stuck(film: np.ndarray, mask: np.ndarray) -> float:
+    """How much of the finest detail stays at its place: correlation of frames that are 8 or more apart."""
+    fine = np.array([frame - _blurred(frame) for frame in film])[:, mask]
+    fine -= fine.mean(axis=1, keepdims=True)
+    pairs = [(i, i + gap) for gap in (8, 16) for i in range(0, len(film) - gap, 4)]
+    norms = np.linalg.norm(fine, axis=1)
+    return float(np.mean([fine[i] @ fine[j] / max(norms[i] * norms[j], 1e-9) for i, j in pairs]))
+
+
+def _blurred(frame):
+    from scipy.ndimage import gaussian_filter
+
+    return gaussian_filter(frame, 2)
+
+
+def _bands(pyramid) -> list:
+    return [pyramid.highpass, *[band for scale in pyramid.bands for band in scale]]
+
+
+def _inside(band: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    rows = np.arange(band.shape[0]) * mask.shape[0] // band.shape[0]
+    columns = np.arange(band.shape[1]) * mask.shape[1] // band.shape[1]
+    return band[mask[np.ix_(rows, columns)]]
