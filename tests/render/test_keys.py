@@ -17,7 +17,7 @@ from stillwater.render.resolve import Timeline
 FRAMES = range(1, 13)
 ALL, NONE = set(FRAMES), set()
 BOAT, REFLECTION, TREE, SEA, CLOUDS = (f"layers.{i}" for i in range(5))
-BROOK = "layers.6"
+BROOK, FIRE = "layers.6", "layers.7"
 
 
 SCRIBBLES = {"foreground": [{"points": [[8, 20]]}], "background": [{"points": [[30, 5]]}]}
@@ -26,9 +26,9 @@ OUTLINE = [[2, 2], [14, 2], [14, 30], [2, 30]]
 
 def key_list(recipe, digests=None, size=(48, 36), scale=1.0):
     recipe = parse(recipe).recipe
-    names = ["picture.png", "labels.png", "tree.png", "other.png"]
-    stack = stack_key(recipe, {name: name for name in names} | (digests or {}))
-    keys = FrameKeys(Timeline(recipe), stack, size, scale, {})
+    names = ["picture.png", "labels.png", "tree.png", "other.png", "clip.mp4", "other.mp4"]
+    digests = {name: name for name in names} | (digests or {})
+    keys = FrameKeys(Timeline(recipe), stack_key(recipe, digests), size, scale, digests)
     return [keys.of(frame) for frame in FRAMES]
 
 
@@ -130,6 +130,25 @@ TABLE = [
     (f"{BROOK}.motion.period", 50, ALL),
     (f"{BROOK}.motion.freeze", [{"points": [[1, 1]]}], ALL),
     (f"{BROOK}.motion.outline", {"persistence": 0.5}, NONE),  # it stands still, whatever it would do
+    (f"{FIRE}.motion.clip", "other.mp4", ALL),
+    (f"{FIRE}.motion.clip_frames", [1, 20], ALL),
+    (f"{FIRE}.motion.strokes", [{"points": [[9, 9], [1, 1]]}], ALL),
+    (f"{FIRE}.motion.refine", {"width": 13}, ALL),
+    (f"{FIRE}.motion.speed", 1.1, ALL),
+    (f"{FIRE}.motion.freeze", [{"points": [[1, 1]]}], ALL),
+    (f"{FIRE}.motion.outline", {"persistence": 0.5}, NONE),
+    (f"{FIRE}.motion.life", 12, ALL),
+    (f"{FIRE}.motion.shutter", 0.3, ALL),
+    (f"{FIRE}.motion.average_blur", 4, ALL),
+    (f"{FIRE}.motion.grid", [4, 4], ALL),
+    (f"{FIRE}.motion.repetitions", 1, ALL),
+    (f"{FIRE}.motion.matching", "laplacian", ALL),
+    (f"{FIRE}.motion.transfer", {"patch": 24}, ALL),
+    (f"{FIRE}.motion.clip_scale", 2, ALL),
+    (f"{FIRE}.motion.clip_fps", 30, ALL),
+    (f"{FIRE}.motion.endless", False, ALL),
+    (f"{FIRE}.motion.stylize", 0.5, ALL),
+    (f"{FIRE}.motion.speed", keyed(8, 1, 2), {7, 8, 9, 10, 11, 12}),
     # keys: only where they change, and in the frame before, whose flow looks ahead
     ("wind.gusts", keyed(6, 0.4, 0.4, 0.9), {7, 8, 9, 10, 11, 12}),
     ("wind.speed", keyed(1, *[8] * 8, 9), {8, 9, 10, 11, 12}),
@@ -149,7 +168,10 @@ def wide(recipe):
     recipe["layers"].insert(5 - 1, pond)
     recipe["layers"][4], recipe["layers"][5] = recipe["layers"][5], recipe["layers"][4]
     recipe["layers"][4]["matte"] = {"labels": "labels.png", "value": 0}
-    recipe["layers"].append({"name": "brook", "motion": {"type": "flow", "strokes": [{"points": [[1, 1], [9, 9]]}]}})
+    strokes = [{"points": [[1, 1], [9, 9]]}]
+    brook = {"name": "brook", "matte": {"labels": "labels.png", "value": 8}, "motion": {"type": "flow", "strokes": strokes}}
+    fire = {"name": "fire", "motion": {"type": "example", "clip": "clip.mp4", "strokes": strokes}}
+    recipe["layers"] += [brook, fire]
     return recipe
 
 
@@ -279,7 +301,7 @@ def test_a_new_version_of_an_engine_makes_its_frames_anew(wide, monkeypatch, eng
 
 
 def test_a_new_version_of_an_engine_that_is_not_used_changes_nothing(wide, monkeypatch):
-    wide["layers"] = wide["layers"][2:3] + wide["layers"][-1:]
+    wide["layers"] = wide["layers"][2:3] + wide["layers"][6:7]
     before = key_list(wide)
     for engine in ("ripple", "bob", "drift"):
         monkeypatch.setitem(keys_module.ENGINES, engine, 99)

@@ -15,7 +15,7 @@ FILES = {name: name for name in ("picture.png", "labels.png", "tree.png", "other
 
 def reads_of(recipe, scale=1.0):
     timeline = Timeline(parse(recipe).recipe)
-    return Reads(timeline, FILES, FrameKeys(timeline, stack_key(timeline.recipe, FILES), (48, 36), scale).fixed)
+    return Reads(timeline, FILES, FrameKeys(timeline, stack_key(timeline.recipe, FILES), (48, 36), scale, FILES).fixed)
 
 
 def set_at(recipe, place, value):

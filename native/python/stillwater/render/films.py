@@ -118,15 +118,15 @@ def pace_of(track: ExampleTrack, clip: Prepared, fps: float) -> Pace:
     return Pace.of(track, clip.facts["fps"], len(clip.arrays["residuals"]), fps)
 
 
-def make_look(plates, beat: Callable[[], None], place: str) -> Prepared:
-    """What makes residuals look like the picture. `plates`: made without a look. Throws RecipeError."""
+def make_look(plates: Callable[[], engine.LayerPlates], beat: Callable[[], None], place: str) -> Prepared:
+    """What makes residuals look like the picture. `plates` makes the layer ready, without a look. Throws RecipeError."""
 
     def still_there(*_) -> bool:
         beat()
         return True
 
     try:
-        look = engine.make_look(plates, still_there)
+        look = engine.make_look(plates(), still_there)
     except engine.BadInput as error:
         raise RecipeError(f"{place}.{error}") from None
     numbers, lengths, pixels = look.curves

@@ -119,7 +119,7 @@ class Canvas:
         yield Step(keys[count + 1], f"laying the clip over {name}", transfer)
 
         def look(made: list[Prepared], beat: Callable) -> Prepared:
-            return NOTHING if empty else films.make_look(self.plates(way, made, timeline), beat, place)
+            return NOTHING if empty else films.make_look(lambda: self.plates(way, made, timeline), beat, place)
 
         yield Step(keys[count + 2], f"making the clip look like {name}", look)
 

@@ -70,7 +70,7 @@ def standing(
     timeline, cache = Timeline(recipe), cache or Cache(document.folder / FOLDER)
     sources = Sources(document, cache)
     frame_size(sources.size, scale)
-    keys = FrameKeys(timeline, sources.key, sources.size, scale)
+    keys = FrameKeys(timeline, sources.key, sources.size, scale, sources.digests)
     reads = Reads(timeline, sources.digests, keys.fixed)
     if cache.folder.exists():
         cache.keep_digests()
