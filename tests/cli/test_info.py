@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -71,6 +72,9 @@ SWAY = {"type": "sway", "armature": [[100, 900], [100, 100]]}
 FLOW = {"type": "flow", "strokes": [{"points": [[100, 100], [1500, 900]]}]}
 
 
+FILM = {"type": "example", "clip": "clip.mp4", "strokes": [{"points": [[100, 100], [700, 900]]}], "repetitions": 1}
+
+
 def stripes(x, y, layers):
     """Side by side: whatever lies in front hides all of a layer's surroundings on one side."""
     return x * layers // WIDTH
@@ -94,13 +98,21 @@ def discs(x, y, layers):
         (stripes, 2, {"type": "drift", "velocity": [3, 0]}, 1),
         (stripes, 3, {"type": "still"}, 2),
         (stripes, 2, FLOW, 1),
+        pytest.param(stripes, 2, FILM, 1, marks=pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is not installed")),
     ],
 )
 def test_the_memory_is_within_a_fifth_of_the_peak(scene, tmp_path, command, labels, layers, motion, scale):
     y, x = np.mgrid[:HEIGHT, :WIDTH]
     Image.fromarray(np.stack([x % 256, y % 256, (x + y) % 256], axis=-1).astype(np.uint8)).save(tmp_path / "picture.png")
     Image.fromarray(labels(x, y, layers).astype(np.uint8)).save(tmp_path / "labels.png")
-    cut = [{"name": str(i), "matte": {"labels": "labels.png", "value": i}, "motion": motion} for i in range(layers - 1)]
+    if motion is FILM:
+        noise = np.random.default_rng(1).integers(0, 255, (24, 180, 320, 3), np.uint8)
+        coding = "ffmpeg -v error -y -f rawvideo -pix_fmt rgb24 -s 320x180 -r 24 -i - -c:v libx264 -qp 10".split()
+        subprocess.run([*coding, str(tmp_path / "clip.mp4")], input=noise.tobytes(), check=True, timeout=60)
+        cut, motion = [{"name": "0", "matte": {"labels": "labels.png", "value": 0}, "fill": {"method": "none"}, "motion": motion}], {"type": "still"}
+    else:
+        cut = None
+    cut = cut or [{"name": str(i), "matte": {"labels": "labels.png", "value": i}, "motion": motion} for i in range(layers - 1)]
     path = scene(lambda recipe: recipe.update(layers=[*cut, {"name": "back", "motion": motion}], output={"scale": scale}))
     for state in ("cold", "warm"):
         said = float(re.match(r"(\d+) MB", facts(command("info", path))["memory"])[1]) * 1e6

@@ -6,12 +6,16 @@ holds it within 20 % of the measured peak.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from .. import _stillwater as engine
 from ..recipe.mattes import FileFill, LabelMatte
+from .clips import FRAME as CLIP_FRAME
+from .clips import fitting, needed_memory
 from .fills import Exemplar
+from .films import MEMORY, clip_key
 from .ready import keys_of, ways_of
 
 PROCESS = 170e6  # Python and the engine's libraries
@@ -29,6 +33,9 @@ STRIP = 1.25  # an endless layer's period, of its side
 # Of a layer that flows, bytes a pixel of it: its texture, fields, streamlines and what is found on their knots; and while a
 # field is painted, of the whole picture.
 FIELD, TEXTURE, KNOTS, PAINTING = 8, 16, 24, 120
+# Of a layer that flows like a clip, measured, bytes a pixel of it: its texture, look, sources and the frame at work with its
+# pyramid; and what finding the look takes beside them.
+FILM, LOOK = 400, 230
 TURNED = 1.8  # an endless layer that is being made ready, beside itself: on its canvas, and one period of it
 
 
@@ -111,6 +118,14 @@ def _rendering(job, boxes) -> float:
             ready += shrunk * _area(box) * (TEXTURE + (FIELD + KNOTS) * fields)
             painting = 0 if _painted(job, way) else PAINTING * job.sources.size[0] * job.sources.size[1]
             at_work = max(at_work, painting + FIELD * fields * _area(box))
+        if way.film is not None:
+            clip = _clip_of(job, way)
+            made = _painted(job, way)
+            ready += shrunk * _area(box) * FILM + CLIP_FRAME * clip.size[0] * clip.size[1] * clip.touched
+            painting = PAINTING * job.sources.size[0] * job.sources.size[1] + FIELD * _area(box)
+            at_work = max(at_work, 0 if made else max(shrunk * _area(box) * LOOK, painting))
+            if not clip.taken_apart:
+                at_work = max(at_work, needed_memory(clip.size, clip.frames) - shrunk * _area(box) * FILM)
         if any(endless):
             at_work = max(at_work, TURNED * plate)
     if job.has_alpha:
@@ -120,8 +135,31 @@ def _rendering(job, boxes) -> float:
     return ready + max(cut + at_work, pixels * (FRAME + own) + min(pixels * (WRITTEN + own), WRITTEN_AT_ONCE))
 
 
+class _Clip(NamedTuple):
+    """A film's clip: width and height, frames, how many of these a render reads, and whether it is in the cache."""
+
+    size: tuple[int, int]
+    frames: int
+    touched: int
+    taken_apart: bool
+
+
+def _clip_of(job, way) -> _Clip:
+    example = job.recipe.layers[way.layer].motion
+    if (kept := job.cache.find(clip_key(way.film))) is not None:
+        frames, height, width, _ = kept.arrays["residuals"].shape
+        size, fps, apart = (width, height), kept.facts["fps"], True
+    else:
+        clip = engine.Clip(str(job.document.locate(example.clip)))
+        first, last = example.clip_frames or (1, clip.frames)
+        frames, fps, apart = last - first + 1, clip.fps, False
+        size = fitting((clip.width, clip.height), frames, MEMORY)
+    steps = (example.clip_fps or fps or job.recipe.fps) / job.recipe.fps * (job.last - job.first + 1)
+    return _Clip(size, frames, min(frames, math.ceil(example.life + 2 + steps)), apart)
+
+
 def _painted(job, way) -> bool:
-    """Whether all fields of a layer are in the cache."""
+    """Whether all that a layer needs beside its pixels is in the cache."""
     return all(job.cache.find(key) is not None for key in keys_of(job.sources.key, way, job.scale))
 
 
