@@ -21,9 +21,10 @@ FIRST, FRAMES = 56, 84  # the fall is whole from FIRST on
 
 LEFT, RIGHT, TOP = -1.8, 1.8, 5.0  # what is in the picture, metres
 WIDTH, HEIGHT = 240, 320
-STREAK = 0.30  # metres a unit of Mantaflow's speed while the shutter is open
+STREAK = 0.40  # metres a unit of Mantaflow's speed while the shutter is open
+PARTS = 12  # dots that draw a drop out
 CELL = 0.05  # metres, of the grid in which drops shade and hide each other
-SHADE, HIDE, DENSITY = 0.03, 0.05, 0.7
+SHADE, HIDE, DENSITY = 0.02, 0.035, 0.75
 ROCK, DIM, WHITE = np.array([[0.055, 0.065, 0.075], [0.40, 0.48, 0.55], [0.97, 0.98, 1.0]])  # display values
 
 
@@ -66,20 +67,16 @@ def seen(at: np.ndarray, speed: np.ndarray) -> np.ndarray:
     place = tuple(np.clip(axis.astype(int), 0, n - 1) for axis, n in zip((x, y, z), size))
     weight, shine = open_[place], lit[place] * open_[place]
 
-    cover, light = np.zeros((2, HEIGHT, WIDTH))
+    cover, light = np.zeros((2, HEIGHT * WIDTH))
     scale = WIDTH / (RIGHT - LEFT)
-    for share in np.linspace(-0.5, 0.5, 7):
-        px = (at[:, 0] + share * STREAK * speed[:, 0] - LEFT) * scale - 0.5
-        py = (TOP - at[:, 2] - share * STREAK * speed[:, 2]) * scale - 0.5
-        ix, iy = np.floor(px).astype(int), np.floor(py).astype(int)
-        for dx in (0, 1):
-            for dy in (0, 1):
-                inside = (ix + dx >= 0) & (ix + dx < WIDTH) & (iy + dy >= 0) & (iy + dy < HEIGHT)
-                part = np.abs(1 - dx - px + ix)[inside] * np.abs(1 - dy - py + iy)[inside] / 7
-                pixel = (iy + dy)[inside] * WIDTH + (ix + dx)[inside]
-                cover += np.bincount(pixel, part * weight[inside], WIDTH * HEIGHT).reshape(HEIGHT, WIDTH)
-                light += np.bincount(pixel, part * shine[inside], WIDTH * HEIGHT).reshape(HEIGHT, WIDTH)
-    cover, light = (softened(softened(plane, 0.9, 0), 0.7, 1) for plane in (cover, light))
+    for share in np.linspace(-0.5, 0.5, PARTS):
+        px = ((at[:, 0] + share * STREAK * speed[:, 0] - LEFT) * scale).astype(int)
+        py = ((TOP - at[:, 2] - share * STREAK * speed[:, 2]) * scale).astype(int)
+        inside = np.flatnonzero((px >= 0) & (px < WIDTH) & (py >= 0) & (py < HEIGHT))
+        pixel = py[inside] * WIDTH + px[inside]
+        cover += np.bincount(pixel, weight[inside] / PARTS, WIDTH * HEIGHT)
+        light += np.bincount(pixel, shine[inside] / PARTS, WIDTH * HEIGHT)
+    cover, light = (softened(softened(plane.reshape(HEIGHT, WIDTH), 1.0, 0), 0.8, 1) for plane in (cover, light))
     tone = (light / np.maximum(cover, 1e-6))[..., None] ** 0.7
     veil = 1 - np.exp(-DENSITY * cover)[..., None]
     return ROCK + veil * (DIM + (WHITE - DIM) * tone - ROCK)
