@@ -19,12 +19,12 @@ from models.fluid import ball, baked, box, domain, drops, obstacle, source, writ
 LOW, HIGH = (-2.0, -0.7, 0.0), (2.0, 0.7, 6.0)  # metres
 FIRST, FRAMES = 56, 84  # the fall is whole from FIRST on
 
-LEFT, RIGHT, TOP = -1.8, 1.8, 5.0  # what is in the picture, metres
-WIDTH, HEIGHT = 240, 320
+LEFT, RIGHT, TOP = -1.6, 1.6, 4.4  # what is in the picture, metres
+WIDTH, HEIGHT = 240, 312
 STREAK = 0.40  # metres a unit of Mantaflow's speed while the shutter is open
 PARTS = 12  # dots that draw a drop out
 CELL = 0.05  # metres, of the grid in which drops shade and hide each other
-SHADE, HIDE, DENSITY = 0.02, 0.035, 0.75
+SHADE, HIDE, DENSITY = 0.02, 0.035, 0.95
 ROCK, DIM, WHITE = np.array([[0.055, 0.065, 0.075], [0.40, 0.48, 0.55], [0.97, 0.98, 1.0]])  # display values
 
 
@@ -83,10 +83,11 @@ def seen(at: np.ndarray, speed: np.ndarray) -> np.ndarray:
 
 
 def softened(values: np.ndarray, sigma: float, axis: int) -> np.ndarray:
-    """Gaussian blur along one axis."""
+    """Gaussian blur along one axis, the border held."""
     reach = int(np.ceil(3 * sigma))
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
-    return np.apply_along_axis(np.convolve, axis, values, kernel / kernel.sum(), mode="same")
+    beyond = [(reach, reach) if k == axis else (0, 0) for k in range(values.ndim)]
+    return np.apply_along_axis(np.convolve, axis, np.pad(values, beyond, mode="edge"), kernel / kernel.sum(), mode="valid")
 
 
 def main() -> None:
