@@ -4,7 +4,7 @@
 #
 #   bash blend_samples/run.sh [SAMPLE] [--frames A-B] [--blender PATH]
 #
-# SAMPLE is lake (default), tree, harbour or campfire. Without --blender, Blender is the bpy package that fits this Python.
+# SAMPLE is lake (default), tree, harbour, campfire or waterfall. Without --blender, Blender is the bpy package that fits this Python.
 # Leaves build/samples/SAMPLE.mp4 and build/samples/SAMPLE.png (8 frames with their numbers); prints both paths last.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

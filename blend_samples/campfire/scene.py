@@ -18,8 +18,8 @@ from models.materials import lamp, pigment, toned  # noqa: E402
 from models.meshes import grid, mesh, ripple_noise  # noqa: E402
 from models.pine import pine  # noqa: E402
 from paint.easel import Easel  # noqa: E402
-from paint.fields import blur  # noqa: E402
-from paint.layers import outlined, over, write_sample  # noqa: E402
+from paint.fields import twice  # noqa: E402
+from paint.layers import airy, outlined, over, room, write_sample  # noqa: E402
 
 EYE = (0.0, 0.0, 1.35)
 FIRE = np.array([0.0, 6.0, 0.0])
@@ -164,29 +164,6 @@ def see(rng) -> dict:
         "fire": stage.render(fire, unseen=[*smoke, *haze, *heaven]),
     }
     return {name: twice(stage.display(image, 1.15, 1.12)) for name, image in linear.items()}
-
-
-def twice(image: np.ndarray) -> np.ndarray:
-    """The image enlarged: what the painter looks at is blurred by his brush, so half the pixels do."""
-    for axis in (0, 1):
-        last = image.shape[axis] - 1
-        at = np.arange(2 * (last + 1)) / 2 - 0.25
-        low = np.clip(np.floor(at).astype(int), 0, last)
-        share = np.expand_dims(np.clip(at - low, 0, 1).astype(np.float32), [1 - axis, 2])
-        image = image.take(low, axis) * (1 - share) + image.take(np.minimum(low + 1, last), axis) * share
-    return image
-
-
-def airy(colour: np.ndarray, cover: np.ndarray) -> np.ndarray:
-    """Premultiplied RGBA of what is seen (H, W, 3) through a soft outline (H, W)."""
-    return np.concatenate([colour * cover[..., None], cover[..., None]], axis=2).astype(np.float32)
-
-
-def room(form: np.ndarray, wide: float, gain: float, blocked: np.ndarray) -> np.ndarray:
-    """The outline (H, W) of the air in which a fluid of coverage `form` may flow: wider and softer than the fluid
-    itself, so that it is the fluid's own edges that are seen to move."""
-    grown = np.clip(blur(form, wide) * gain, 0, 1)
-    return grown * grown * (3 - 2 * grown) * (1 - blocked)
 
 
 def paint_layers(easel: Easel, seen: dict) -> list:

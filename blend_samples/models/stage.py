@@ -14,13 +14,13 @@ from mathutils import Matrix, Vector
 bpy.utils.expose_bundled_modules()
 
 
-def asked(description: str, folder: str, width: int = 1280) -> argparse.Namespace:
-    """The command line of a scene: width, height (by the picture's shape, 8 : 5) and output folder."""
+def asked(description: str, folder: str, width: int = 1280, shape: tuple[int, int] = (8, 5)) -> argparse.Namespace:
+    """The command line of a scene: width, height (by the picture's shape, width : height) and output folder."""
     arguments = argparse.ArgumentParser(description=description)
     arguments.add_argument("--width", type=int, default=width, help="pixels; the brushes shrink with it")
     arguments.add_argument("--output", default=folder, help="folder of the picture, mattes/ and behind/")
     given = arguments.parse_args()
-    given.height = given.width * 5 // 8
+    given.height = given.width * shape[1] // shape[0]
     return given
 
 

@@ -65,3 +65,14 @@ def rippled(image: np.ndarray, horizon: np.ndarray, sway: float, length: float, 
     share = (at - left)[..., None]
     rows = np.arange(h)[:, None]
     return image[rows, left] * (1 - share) + image[rows, left + 1] * share
+
+
+def twice(image: np.ndarray) -> np.ndarray:
+    """The image enlarged: what the painter looks at is blurred by his brush, so half the pixels do."""
+    for axis in (0, 1):
+        last = image.shape[axis] - 1
+        at = np.arange(2 * (last + 1)) / 2 - 0.25
+        low = np.clip(np.floor(at).astype(int), 0, last)
+        share = np.expand_dims(np.clip(at - low, 0, 1).astype(np.float32), [1 - axis, 2])
+        image = image.take(low, axis) * (1 - share) + image.take(np.minimum(low + 1, last), axis) * share
+    return image

@@ -26,6 +26,18 @@ def outlined(layer: np.ndarray, guide: np.ndarray, share: float = 1.0) -> np.nda
     return np.concatenate([layer[..., :3] / np.maximum(layer[..., 3:], 1e-4) * alpha, alpha], axis=2)
 
 
+def airy(colour: np.ndarray, cover: np.ndarray) -> np.ndarray:
+    """Premultiplied RGBA of what is seen (H, W, 3) through a soft outline (H, W)."""
+    return np.concatenate([colour * cover[..., None], cover[..., None]], axis=2).astype(np.float32)
+
+
+def room(form: np.ndarray, wide: float, gain: float, blocked: np.ndarray) -> np.ndarray:
+    """The outline (H, W) of the air in which a fluid of coverage `form` may flow: wider and softer than the fluid
+    itself, so that it is the fluid's own edges that are seen to move."""
+    grown = np.clip(blur(form, wide) * gain, 0, 1)
+    return grown * grown * (3 - 2 * grown) * (1 - blocked)
+
+
 def spread_under(layer: np.ndarray) -> np.ndarray:
     """The layer with half-covered marks made whole, for what lies under the edges of others."""
     alpha = layer[..., 3:]
