@@ -100,7 +100,7 @@ py::array_t<float> carried_at(const Carried& carried, double moment) {
   return as_array(colours);
 }
 
-std::pair<py::array_t<float>, py::array_t<float>> contrast(const FloatArray& difference, const std::vector<FloatArray>& moments,
+std::tuple<py::array_t<float>, py::array_t<float>, py::array_t<float>> contrast(const FloatArray& difference, const std::vector<FloatArray>& moments,
                                                            const FloatArray& weight, double around) {
   const Rgb own = as_image<cv::Vec3f>(difference, "difference");
   std::vector<Rgb> film;
@@ -111,7 +111,7 @@ std::pair<py::array_t<float>, py::array_t<float>> contrast(const FloatArray& dif
     const py::gil_scoped_release release;
     found = local_contrast(own, film, counts, around);
   }
-  return {as_array(found.slope), as_array(found.mean)};
+  return {as_array(found.slope), as_array(found.mean), as_array(found.hold)};
 }
 
 ExampleSetup example_setup(const py::array& residuals, const FloatArray& patches, const std::vector<CloneStroke>& strokes,
@@ -152,9 +152,10 @@ std::tuple<py::array_t<float>, std::vector<size_t>, size_t> flat_curves(const Ex
   return {py::array_t<float>(static_cast<py::ssize_t>(numbers.size()), numbers.data()), lengths, look.curves.pixels.size()};
 }
 
-ExampleLook look_of(const FloatArray& base, const FloatArray& slope, const FloatArray& numbers,
+ExampleLook look_of(const FloatArray& base, const FloatArray& slope, const FloatArray& hold, const FloatArray& numbers,
                     const std::vector<size_t>& lengths, size_t pixels) {
-  ExampleLook look{as_image<cv::Vec3f>(base, "base").clone(), as_image<cv::Vec3f>(slope, "slope").clone(), {}};
+  ExampleLook look{as_image<cv::Vec3f>(base, "base").clone(), as_image<cv::Vec3f>(slope, "slope").clone(),
+                   as_image<float>(hold, "hold").clone(), {}};
   const float* next = numbers.data();
   size_t left = static_cast<size_t>(numbers.size());
   for (size_t i = 0; i < lengths.size(); ++i) {
@@ -220,9 +221,10 @@ void bind_example(py::module_& module) {
            py::arg("transfer"), py::arg("reach"), py::arg("velocities"), py::arg("freeze"), py::arg("life"),
            py::arg("endless"), py::arg("period"), py::arg("look"));
   py::class_<ExampleLook>(module, "ExampleLook")
-      .def(py::init(&look_of), py::arg("base"), py::arg("slope"), py::arg("numbers"), py::arg("lengths"), py::arg("pixels"))
+      .def(py::init(&look_of), py::arg("base"), py::arg("slope"), py::arg("hold"), py::arg("numbers"), py::arg("lengths"), py::arg("pixels"))
       .def_property_readonly("base", [](const ExampleLook& look) { return as_array(look.base); })
       .def_property_readonly("slope", [](const ExampleLook& look) { return as_array(look.slope); })
+      .def_property_readonly("hold", [](const ExampleLook& look) { return as_array(look.hold); })
       .def_property_readonly("curves", &flat_curves);
   const ExampleNow still;
   py::class_<ExampleNow>(module, "Example")

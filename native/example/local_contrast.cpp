@@ -13,6 +13,7 @@ namespace {
 
 constexpr float most_gain = 3;  // times the whole picture's
 constexpr float least_weight = 1e-3f;
+constexpr float held_at = 2.5f;  // deviations
 
 template <class Pixel>
 cv::Mat_<Pixel> blurred(const cv::Mat_<Pixel>& image, double sigma) {
@@ -71,6 +72,7 @@ LocalContrast local_contrast(const Rgb& difference, const std::vector<Rgb>& mome
   }
   const double whole = places.whole(film_square);
   found.slope = Rgb(difference.size(), cv::Vec3f());
+  found.hold = Plane(difference.size(), 0.0f);
   if (!(whole > 0)) return found;
   const auto most = static_cast<float>(most_gain * std::sqrt(places.whole(own_square) / whole));
   const Plane wanted = places.mean(own_square), has = places.mean(film_square);
@@ -80,6 +82,7 @@ LocalContrast local_contrast(const Rgb& difference, const std::vector<Rgb>& mome
     for (int x = 0; x < found.slope.cols; ++x) {
       const float square = std::max(0.0f, wanted(y, x));
       const float gain = std::min(most, std::sqrt(square / std::max(nothing, has(y, x))));
+      found.hold(y, x) = held_at * std::sqrt(std::max(nothing, has(y, x)));
       found.slope(y, x) = gain / (square + colourless) * together(y, x);
     }
   return found;

@@ -72,6 +72,7 @@ ExamplePlate::ExamplePlate(const Plate& plate, const ExampleSetup& setup, const 
   if (!look) return;
   check::same_size("look.base", look->base, "the layer", texture_);
   check::same_size("look.slope", look->slope, "the layer", texture_);
+  check::same_size("look.hold", look->hold, "the layer", texture_);
   look_ = *look;
 }
 
@@ -95,7 +96,7 @@ ExampleLook ExamplePlate::make_look(Progress progress) const {
   }
   const Rgb difference = without_coverage(texture_) - average;
   const LocalContrast contrast = local_contrast(difference, moments, coverage_of(plate_.source.pixels()), around_of_cell * cell());
-  ExampleLook look{average + contrast.mean, contrast.slope, {}};
+  ExampleLook look{average + contrast.mean, contrast.slope, contrast.hold, {}};
   if (!parameters_.matched) return look;
   progress.phase("finding its texture", 0.4);
   for (int i = 0; i < moments_of_curves; ++i) {
@@ -111,7 +112,7 @@ Rgba ExamplePlate::unmatched(const Rgb& differences, const ExampleLook& look) co
   Rgba film(differences.size());
   const Plane grey = luma(differences);
   parallel_pixels(film.size(), [&](int y, int x) {
-    const cv::Vec3f colour = look.base(y, x) + grey(y, x) * look.slope(y, x);
+    const cv::Vec3f colour = with_contrast(look.base(y, x), look.slope(y, x), look.hold(y, x), grey(y, x));
     film(y, x) = {std::max(0.0f, colour[0]), std::max(0.0f, colour[1]), std::max(0.0f, colour[2]), 1};
   });
   return film;

@@ -39,6 +39,7 @@ struct ExampleSetup {
 struct ExampleLook {
   Rgb base;              ///< A' and the mean of C
   Rgb slope;             ///< of the differences (local_contrast.h)
+  Plane hold;
   TextureCurves curves;  ///< the mean of those of a few moments
 };
 

@@ -130,8 +130,10 @@ def test_differences_get_the_picture_s_strength_place_by_place():
     strong = np.where(np.arange(WIDTH) < WIDTH // 2, 0.4, 0.1)
     own = colours(rng.normal(size=(HEIGHT, WIDTH)) * strong)
     film = [np.repeat(rng.normal(size=(HEIGHT, WIDTH, 1)), 3, axis=2).astype(np.float32) for _ in range(6)]
-    slope, mean = engine.local_contrast(own, film, np.ones((HEIGHT, WIDTH), np.float32), 8.0)
+    slope, mean, hold = engine.local_contrast(own, film, np.ones((HEIGHT, WIDTH), np.float32), 8.0)
     made = mean + slope * luma(film[0])[..., None]
+    deviation = luma(film[0]).std()
+    assert hold.mean() == pytest.approx(2.5 * deviation, rel=0.05)
     for part in (slice(10, 40), slice(90, 118)):
         for channel in range(3):
             assert made[:, part, channel].std() == pytest.approx(own[:, part, channel].std(), rel=0.15)
@@ -141,7 +143,7 @@ def test_they_get_its_colours():
     rng = np.random.default_rng(2)
     own = colours(0.2 * rng.normal(size=(HEIGHT, WIDTH)))
     film = [rng.normal(size=(HEIGHT, WIDTH, 3)).astype(np.float32)]
-    slope, _ = engine.local_contrast(own, film, np.ones((HEIGHT, WIDTH), np.float32), 10.0)
+    slope, _, _ = engine.local_contrast(own, film, np.ones((HEIGHT, WIDTH), np.float32), 10.0)
     np.testing.assert_allclose(slope[..., 1] / slope[..., 0], 0.5, atol=1e-3)
     np.testing.assert_allclose(slope[..., 2] / slope[..., 0], -0.25, atol=1e-3)
 
@@ -159,7 +161,7 @@ def test_what_is_not_weighed_does_not_count():
 
 def test_a_film_without_differences_gets_none():
     own = colours(np.ones((HEIGHT, WIDTH)))
-    slope, mean = engine.local_contrast(own, [np.zeros_like(own)], np.ones((HEIGHT, WIDTH), np.float32), 6.0)
+    slope, mean, _ = engine.local_contrast(own, [np.zeros_like(own)], np.ones((HEIGHT, WIDTH), np.float32), 6.0)
     assert (slope == 0).all()
     np.testing.assert_allclose(mean, own, atol=1e-5)
 

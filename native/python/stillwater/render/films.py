@@ -130,12 +130,12 @@ def make_look(plates: Callable[[], engine.LayerPlates], beat: Callable[[], None]
     except engine.BadInput as error:
         raise RecipeError(f"{place}.{error}") from None
     numbers, lengths, pixels = look.curves
-    return Prepared({"base": look.base, "slope": look.slope, "numbers": numbers}, {"lengths": lengths, "pixels": pixels})
+    return Prepared({"base": look.base, "slope": look.slope, "hold": look.hold, "numbers": numbers}, {"lengths": lengths, "pixels": pixels})
 
 
 def look_of(prepared: Prepared) -> engine.ExampleLook:
     arrays, facts = prepared.arrays, prepared.facts
-    return engine.ExampleLook(arrays["base"], arrays["slope"], arrays["numbers"], facts["lengths"], facts["pixels"])
+    return engine.ExampleLook(arrays["base"], arrays["slope"], arrays["hold"], arrays["numbers"], facts["lengths"], facts["pixels"])
 
 
 def _transfer_parameters(example: Example) -> engine.TransferParameters:

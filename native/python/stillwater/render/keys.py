@@ -26,7 +26,7 @@ ENGINES = {
     "ripple": 3,
     "bob": 1,
     "drift": 3,
-    "flow": 1,
+    "flow": 2,
     "clip": 1,
     "appearance": 1,
     "example": 1,
