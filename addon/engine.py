@@ -11,8 +11,8 @@ from pathlib import Path
 from bpy.app.translations import pgettext_rpt as rpt_
 
 TRIAL = 20  # s: how long a Python may take to load the engine
-SMALL, FLOWS = 320, 16  # px: a clip's longer side where its speed is picked, and the least that has a flow
-SEEN, AROUND = 5, 3  # frames, and px of them on each side of the place
+SMALL, FLOWS = 256, 16  # px: a clip's longer side where its speed is picked, and the least that has a flow
+SEEN, AROUND = 4, 3  # frames, and px of them on each side of the place
 
 _engine = None
 _problem = "The engine was not looked for yet"
@@ -176,14 +176,13 @@ def clip_facts(path: Path | str):
     return _stillwater.Clip(str(path))
 
 
-def clip_motion(path: Path | str, first: int, place: tuple[float, float]) -> tuple[float, float]:
+def clip_motion(clip, first: int, place: tuple[float, float]) -> tuple[float, float]:
     """How what is around a place of a clip moves, px of the clip in a frame of it: the mean over its SEEN frames from
     `first` (counted from 1) on, taken small. `place`: px. Throws ValueError, OSError."""
     import numpy as np
 
-    clip = clip_facts(path)
     if clip.frames < 2:
-        raise ValueError(rpt_("{path}: has one frame only, in which nothing moves").format(path=path))
+        raise ValueError(rpt_("The clip has one frame only, in which nothing moves"))
     scale = min(1.0, SMALL / max(clip.width, clip.height))
     size = max(FLOWS, round(scale * clip.width)), max(FLOWS, round(scale * clip.height))
     last = min(first + SEEN - 1, clip.frames)

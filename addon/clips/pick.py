@@ -1,7 +1,7 @@
 """Picking a speed from the clip: how fast it is where it is clicked, as the picture would have it.
 
-Asked of the engine in this process, of the clip's first frames that are used, made small: some 50 ms, more for a large
-clip. The preparation in the cache has the whole clip's, but only once the layer is finished.
+Asked of the engine in this process, of the clip's first frames that are used, made small: 50 ms for 640 x 360,
+more for a larger one. The preparation in the cache has the whole clip's, but only once the layer is finished.
 """
 
 import bpy
@@ -22,10 +22,10 @@ def speed_at(scene, example, place: tuple[float, float]) -> float:
 
     The clip's own px/frame, times what its pixels and its frames are in the picture's.
     """
-    path = bpy.path.abspath(example.clip)
-    right, down = engine.clip_motion(path, example.clip_first if example.use_clip_frames else 1, place)
+    clip = engine.clip_facts(bpy.path.abspath(example.clip))
+    right, down = engine.clip_motion(clip, example.clip_first if example.use_clip_frames else 1, place)
     fps = scene.render.fps / scene.render.fps_base
-    clip_fps = example.clip_fps or engine.clip_facts(path).fps or fps
+    clip_fps = example.clip_fps or clip.fps or fps
     return min((right**2 + down**2) ** 0.5 * example.clip_scale * clip_fps / fps, FASTEST)
 
 

@@ -391,7 +391,7 @@ def test_a_clip_of_one_frame_has_no_speed(opened, tmp_path):
     opened()
     clips.write(tmp_path / "one.avi", clips.passing(frames=1))
     call("choose_clip", filepath=str(tmp_path / "one.avi"))
-    with pytest.raises(RuntimeError, match="one.avi: has one frame only, in which nothing moves"):
+    with pytest.raises(RuntimeError, match="The clip has one frame only, in which nothing moves"):
         bpy.ops.stillwater.pick_speed(place=(48, 32))
 
 
