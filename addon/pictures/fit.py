@@ -41,10 +41,13 @@ def free(viewport: Box, over: list[tuple[str, Box]]) -> Box:
     return Box(left, bottom, right - left, top - bottom)
 
 
-def above(size: tuple[int, int], other: tuple[int, int]) -> tuple[float, float]:
-    """The share of width and height that a picture has of itself with another below it, both with equal longer sides."""
+def above(size: tuple[int, int], other: tuple[int, int], gap: float = 0.0) -> tuple[float, float]:
+    """The share of width and height that a picture has of itself with another below it, both with equal longer sides.
+
+    `gap`: between them and below them, of that side.
+    """
     (width, height), (below_width, below_height) = ([side / max(both) for side in both] for both in (size, other))
-    return width / max(width, below_width), height / (height + below_height)
+    return width / max(width, below_width), height / (height + below_height + 2 * gap)
 
 
 def upper(box: Box, share: tuple[float, float]) -> Box:

@@ -119,7 +119,7 @@ def look(scene, picture, below=None) -> None:
     `below`: the plane of a clip that is to be seen with it, below it.
     """
     size = frame_size(picture)
-    share = fit.above(size, tuple(clip.size_of(below))) if below is not None else (1.0, 1.0)
+    share = fit.above(size, clip.size_of(below), clip.GAP) if below is not None else (1.0, 1.0)
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas if window.scene == scene else ():
             if area.type == "VIEW_3D":

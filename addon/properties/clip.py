@@ -9,6 +9,7 @@ from mathutils import Matrix
 
 from . import names, plane
 
+GAP = 0.04  # between planes, of the longer side of the picture's
 LAYER, SIZE = "stillwater_clip", "stillwater_clip_size"
 
 

@@ -12,8 +12,6 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from .. import engine
 from ..properties import clip, image, names
 
-GAP = 0.04  # between planes, of the longer side of the picture's
-
 
 def ensure(picture, layer):
     """The plane that shows the layer's clip as it is chosen now. Throws ValueError, OSError with a sentence."""
@@ -118,7 +116,7 @@ def _place(picture, shown) -> None:
     lowest = [plane.empty_image_offset[1] * height * unit]
     lowest += [other.location.y - _half_height(other) for other in clip.planes_of(picture) if other != shown and clip.SIZE in other]
     shown.location.x = (plane.empty_image_offset[0] + 0.5) * width * unit
-    shown.location.y = min(lowest) - GAP * side - _half_height(shown)
+    shown.location.y = min(lowest) - clip.GAP * side - _half_height(shown)
 
 
 def _half_height(shown) -> float:

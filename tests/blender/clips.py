@@ -10,13 +10,17 @@ RGB_TO_YUV = np.array([[65.481, 128.553, 24.966], [-37.797, -74.203, 112], [112,
 
 def passing(size=SIZE, frames=FRAMES, step=STEP, seed=1) -> np.ndarray:
     """frames x height x width x 3, 0 .. 1: smooth noise."""
-    width, height = size
-    whole = np.random.default_rng(seed).random((height, width + step * frames, 3))
+    whole = np.random.default_rng(seed).random((size[1], size[0] + step * frames, 3))
     for axis in (0, 1):
         whole = sum(np.roll(whole, shift, axis) * weight for shift, weight in zip(range(-3, 4), (1, 6, 15, 20, 15, 6, 1), strict=True))
-    whole = (whole - whole.min()) / np.ptp(whole)
+    return scrolled((whole - whole.min()) / np.ptp(whole), size, frames, step)
+
+
+def scrolled(whole: np.ndarray, size=SIZE, frames=FRAMES, step=STEP) -> np.ndarray:
+    """A picture that is wide enough, height x width x 3, passing by."""
+    width, height = size
     starts = [step * (frames - i) for i in range(frames)]
-    return np.stack([whole[:, start : start + width] for start in starts])
+    return np.stack([whole[:height, start : start + width] for start in starts])
 
 
 def write(path: Path, pixels: np.ndarray | None = None, fps: int = FPS) -> Path:

@@ -409,6 +409,7 @@ def test_the_place_under_the_mouse():
 def test_the_picture_and_the_clip_below_share_a_viewport(extension):
     fit = extension.pictures.fit
     assert fit.above((400, 400), (400, 400)) == (1, 0.5)
+    assert fit.above((400, 200), (400, 200), 0.1) == pytest.approx((1, 0.5 / 1.2))
     share = fit.above((200, 400), (400, 200))
     assert share == pytest.approx((0.5, 2 / 3))
     upper = fit.upper(fit.Box(10, 20, 800, 600), share)
