@@ -79,6 +79,8 @@ def remove(picture, layer_id: str) -> None:
 
 def follow(example) -> None:
     """After another clip was chosen: where one is shown it is this one now, if that can be."""
+    if image.is_held():
+        return
     picture = names.picture_of(example)
     layer = next(layer for layer in picture.layers if layer.motion.example == example)
     if layer.motion.example.clip and clip.plane_of(picture, layer.id) is not None:

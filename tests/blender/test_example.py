@@ -262,6 +262,19 @@ def test_another_clip_takes_its_place(opened, tmp_path):
         bpy.ops.stillwater.show_clip()
 
 
+def test_a_file_that_is_saved_elsewhere_keeps_its_clip(extension, opened, tmp_path):
+    opened(**CLONES)
+    before, shown = motion(extension)["transfer"], clip.plane_of(now(), now().layers[0].id)
+    (tmp_path / "deep" / "er").mkdir(parents=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "deep" / "er" / "file.blend"))
+    here = now().layers[0].motion.example.clip
+    assert here == "//../../lake/clip.avi" and bpy.path.abspath(shown.data.filepath) == bpy.path.abspath(here)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "deep" / "er" / "file.blend"))
+    call("show_clip")
+    assert len(clip.planes_of(now())) == 1 == len([image for image in bpy.data.images if image.source == "MOVIE"])
+    assert motion(extension)["transfer"] == before
+
+
 def test_copies_and_removals_take_the_clip_along(opened):
     opened(**CLONES)
     call("duplicate_layer")
