@@ -13,13 +13,14 @@
     play         the picture in motion in the viewport, with no bake
     overlay      what can't be seen in the picture itself, drawn over it
     pictures     from a file on disk to a picture that can be drawn on, and away again
+    clips        the clip that a fluid looks like: chosen, shown, asked for its speed
 
 Each room registers its own classes: properties, operators and the panels that show them.
 """
 
-from . import bake, compositor, engine, layers, overlay, pictures, play, preferences, properties, strokes, ui
+from . import bake, clips, compositor, engine, layers, overlay, pictures, play, preferences, properties, strokes, ui
 
-ROOMS = [preferences, properties, ui, compositor, strokes, layers, bake, play, overlay, pictures]
+ROOMS = [preferences, properties, ui, compositor, strokes, layers, bake, play, overlay, pictures, clips]
 
 
 def register():

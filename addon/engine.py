@@ -11,6 +11,8 @@ from pathlib import Path
 from bpy.app.translations import pgettext_rpt as rpt_
 
 TRIAL = 20  # s: how long a Python may take to load the engine
+SMALL, FLOWS = 256, 16  # px: a clip's longer side where its speed is picked, and the least that has a flow
+SEEN, AROUND = 4, 3  # frames, and px of them on each side of the place
 
 _engine = None
 _problem = "The engine was not looked for yet"
@@ -44,15 +46,6 @@ def problem() -> str:
 def version() -> str:
     """The engine's version; empty without an engine."""
     return _engine.__version__ if _engine else ""
-
-
-def has_motion(kind: str) -> bool:
-    """Whether the engine moves layers so; without an engine, whether every version does. Asked before load(), too."""
-    try:
-        from stillwater.recipe.engines import MOTIONS
-    except ImportError:
-        return kind != "example"
-    return kind in {motion.__struct_config__.tag for motion in MOTIONS}
 
 
 def read_recipe(path: str) -> dict:
@@ -172,6 +165,35 @@ def file_matte(path: Path, channel: str):
     from stillwater import _stillwater
 
     return _stillwater.read_matte(str(path), channel)
+
+
+def clip_facts(path: Path | str):
+    """A clip: its frames, fps (0 = its file does not say), width, height. Throws ValueError, OSError."""
+    if _engine is None:
+        raise ValueError(_problem)
+    from stillwater import _stillwater
+
+    return _stillwater.Clip(str(path))
+
+
+def clip_motion(clip, first: int, place: tuple[float, float]) -> tuple[float, float]:
+    """How what is around a place of a clip moves, px of the clip in a frame of it: the mean over its SEEN frames from
+    `first` (counted from 1) on, taken small. `place`: px. Throws ValueError, OSError."""
+    import numpy as np
+
+    if clip.frames < 2:
+        raise ValueError(rpt_("The clip has one frame only, in which nothing moves"))
+    scale = min(1.0, SMALL / max(clip.width, clip.height))
+    size = max(FLOWS, round(scale * clip.width)), max(FLOWS, round(scale * clip.height))
+    last = min(first + SEEN - 1, clip.frames)
+    frames = [clip.frame(number, *size) for number in range(min(first, last - 1), last + 1)]
+    flow = np.mean([_engine.optical_flow(*pair) for pair in zip(frames, frames[1:], strict=False)], axis=0)
+    x, y = (int(at * small / whole) for at, small, whole in zip(place, size, (clip.width, clip.height), strict=True))
+    around = flow[max(0, y - AROUND) : y + AROUND + 1, max(0, x - AROUND) : x + AROUND + 1].reshape(-1, 2)
+    if not around.size:
+        raise ValueError(rpt_("Click on the clip: that place is beside it"))
+    right, down = np.median(around, axis=0)
+    return float(right * clip.width / size[0]), float(down * clip.height / size[1])
 
 
 def painted_flow(strokes: list[dict], freeze: list[dict], refine: dict, picture, bound):

@@ -106,7 +106,7 @@ def _lay_down(picture, layer, drawn: dict) -> list[str]:
     """Draws what cuts the layer out; a sentence where the picture has nothing to draw on."""
     try:
         strokes.lay_down(picture.id_data, picture, layer.id, drawn)
-    except ValueError as error:
+    except (ValueError, OSError) as error:
         return [rpt_("{layer}: its strokes did not come along: {why}").format(layer=layer.name, why=error)]
     return []
 

@@ -17,6 +17,8 @@ class STILLWATER_MT_add_layer(bpy.types.Menu):
         for kind in preset_files.KINDS[:-1]:
             layout.separator()
             icon = motions.ICONS[kind]
+            if kind == "example":  # its presets are named after the same fluids as those of Flow
+                layout.label(text="Flow like a Clip")
             for path in preset_files.paths(kind):
                 added = layout.operator("stillwater.add_layer", text=preset_files.name_of(path), icon=icon)
                 added.motion, added.preset = kind, str(path)

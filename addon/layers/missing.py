@@ -70,7 +70,7 @@ def _motion(picture, layer, drawn: set[str]) -> list[str]:
         case "flow" if "strokes" not in drawn:
             return ["Press Flow and draw the way that it flows, or Propose Flow"]
         case "example":
-            clip = [] if motion.example.clip else ["Choose the clip whose fluid it looks like"]
+            clip = [] if motion.example.clip else ["Press Choose Clip: a film of such a fluid, from a camera that stands still"]
             return clip + ([] if "strokes" in drawn else ["Press Flow and draw the way that it flows, or Propose Flow"])
     return []
 

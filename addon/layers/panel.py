@@ -25,7 +25,7 @@ class _Layers(sidebar.OfPicture):
             _draw_selection(self.layout, len(selected))
         layer = picture.layers[picture.active_layer]
         drawn = strokes.replaced(context.scene, picture, layer)
-        for sentence in missing.of(picture, picture.active_layer, drawn):
+        for sentence in [*missing.of(picture, picture.active_layer, drawn), *strokes.unpaired(context.scene, picture, layer)]:
             sidebar.say(context, self.layout, iface_(sentence), "ERROR")
 
 
@@ -76,7 +76,10 @@ def _draw_layer(layout, layer, drawn: set[str]) -> None:
     layout.prop(layer.motion, "type")
     if layer.motion.numbers() is not None:
         STILLWATER_PT_motion_presets.draw_button(layout, "Presets")
-        DRAWN[layer.motion.type](layout, layer.motion.numbers(), drawn)
+        if layer.motion.type == "example":
+            panel_flow.draw_example(layout, layer.motion, drawn)
+        else:
+            DRAWN[layer.motion.type](layout, layer.motion.numbers(), drawn)
     _draw_matte(layout, layer)
     _draw_fill(layout, layer)
     _draw_rest(layout, layer)
@@ -124,7 +127,6 @@ def _draw_drift(layout, drift, drawn: set[str]) -> None:
 
 
 DRAWN = {"sway": _draw_sway, "ripple": _draw_ripple, "bob": _draw_bob, "drift": _draw_drift, "flow": panel_flow.draw}
-DRAWN["example"] = panel_flow.draw_example
 NUMBERS = {
     "file": ("file", "channel"), "labels": ("labels", "value"), "trimap": ("trimap", "method"),
     "scribbles": ("method",), "lasso": ("feather", "snap", "method"),

@@ -4,6 +4,9 @@ They lie in Blender's own preset folders, under presets/stillwater/KIND, as JSON
 in the extension, an artist's own in the user's scripts. A file is a preset of one kind and never says where a layer is:
 
     {"stillwater_preset": 1, "kind": "sway", "description": "Leaves stir", "numbers": {"frequency": 0.5}}
+
+With "size", [width, height], numbers that go with the picture are those of a picture so large: lengths are scaled by the
+side of a square as large, a grid has its cells of the same size.
 """
 
 import json
@@ -16,12 +19,14 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.app.translations import pgettext_tip as tip_
 
-from ..properties import motions
+from ..properties import motions, names
 from ..recipe.numbers import kept, plain
 
 SHIPPED = Path(__file__).resolve().parent  # holds presets/stillwater/KIND
 KINDS = (*(kind for kind in motions.ICONS if kind != "still"), "wind")
 APART = {*motions.PLACES, "direction"}  # belongs to one picture
+SCALED, MOST_CELLS = {"refine_width", "average_blur"}, 64
+OF_A_SIZE = ("example",)  # kinds whose presets say for which size they are
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,19 @@ class Preset:
     kind: str
     description: str
     numbers: dict
+    size: tuple[int, int] | None = None  # px, of the picture that they were made for
+
+    def scaled(self, size: tuple[int, int]) -> dict:
+        """The numbers for a picture of another size."""
+        if self.size is None or 0 in size:
+            return self.numbers
+        across, down = (new / old for new, old in zip(size, self.size, strict=True))
+        made = dict(self.numbers)
+        for name in SCALED & made.keys():
+            made[name] *= (across * down) ** 0.5
+        if "grid" in made:
+            made["grid"] = [min(max(1, round(c * f)), MOST_CELLS) for c, f in zip(made["grid"], (across, down), strict=True)]
+        return made
 
 
 def paths(kind: str) -> list[Path]:
@@ -63,7 +81,8 @@ def read(path: Path | str) -> Preset:
     """Throws ValueError and OSError with a sentence."""
     try:
         said = json.loads(Path(path).read_text(encoding="utf-8"))
-        preset = Preset(name_of(path), said["kind"], said.get("description", ""), dict(said["numbers"]))
+        kind, description = said["kind"], said.get("description", "")
+        preset = Preset(name_of(path), kind, description, dict(said["numbers"]), _size(said.get("size")))
     except FileNotFoundError as error:
         raise OSError(rpt_("{path}: there is no such preset").format(path=path)) from error
     except (ValueError, KeyError, TypeError) as error:
@@ -101,7 +120,8 @@ def apply(group, preset: Preset) -> None:
     check(group, preset)
     for name in _names(group):
         group.property_unset(name)
-    for name, value in preset.numbers.items():
+    numbers = preset.scaled(tuple(names.picture_of(group).picture_size)) if preset.size else preset.numbers
+    for name, value in numbers.items():
         kind = group.bl_rna.properties[name]
         if kind.type == "FLOAT" and not kind.is_array:
             value = kept(value, kind.subtype)
@@ -118,11 +138,23 @@ def write(kind: str, name: str, group, description: str = "") -> Path:
         raise ValueError(rpt_('"{name}" exists already; choose another name, or remove it first').format(name=name))
     numbers = {field: _plain(group, field) for field in _names(group)}
     said = {"stillwater_preset": 1, "kind": kind, "description": description, "numbers": numbers}
+    if kind in OF_A_SIZE and all(size := names.picture_of(group).picture_size):
+        said["size"] = list(size)
     path = folder(kind) / f"{stem}.json"
     unfinished = path.with_suffix(".part")
     unfinished.write_text(json.dumps(said, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     unfinished.replace(path)
     return path
+
+
+def _size(said) -> tuple[int, int] | None:
+    """Of a picture, as a file says it. Throws TypeError, ValueError where it is none."""
+    if said is None:
+        return None
+    width, height = said
+    if min(width, height) < 1:
+        raise ValueError(said)
+    return width, height
 
 
 def _names(group) -> list[str]:
@@ -132,7 +164,7 @@ def _names(group) -> list[str]:
 def _plain(group, name: str):
     value, kind = getattr(group, name), group.bl_rna.properties[name]
     if kind.type != "FLOAT":
-        return value
+        return list(value) if getattr(kind, "is_array", False) else value
     return [plain(part) for part in value] if kind.is_array else plain(value, kind.subtype)
 
 

@@ -34,7 +34,7 @@ class STILLWATER_OT_propose_flow(bpy.types.Operator):
         picture = context.scene.stillwater.active()
         layer = picture.layers[picture.active_layer] if picture.active_layer < len(picture.layers) else None
         if layer is None or layer.motion.type not in strokes.FLUIDS:
-            cls.poll_message_set(tip_("Select a layer with the motion Flow first"))
+            cls.poll_message_set(tip_("Select a layer with the motion Flow or Example first"))
             return False
         return True
 

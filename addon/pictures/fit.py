@@ -41,6 +41,21 @@ def free(viewport: Box, over: list[tuple[str, Box]]) -> Box:
     return Box(left, bottom, right - left, top - bottom)
 
 
+def above(size: tuple[int, int], other: tuple[int, int], gap: float = 0.0) -> tuple[float, float]:
+    """The share of width and height that a picture has of itself with another below it, both with equal longer sides.
+
+    `gap`: between them and below them, of that side.
+    """
+    (width, height), (below_width, below_height) = ([side / max(both) for side in both] for both in (size, other))
+    return width / max(width, below_width), height / (height + below_height + 2 * gap)
+
+
+def upper(box: Box, share: tuple[float, float]) -> Box:
+    """That share of a box: of its width in the middle, of its height above."""
+    width, height = box.width * share[0], box.height * share[1]
+    return Box(box.x + (box.width - width) / 2, box.y + box.height - height, width, height)
+
+
 def view_of(viewport: Box, within: Box, size: tuple[int, int]) -> tuple[float, tuple[float, float]]:
     """Blender's zoom and offset of a camera's view, where a picture of `size` pixels is to lie in the middle of `within`.
 

@@ -11,7 +11,7 @@ from .. import engine, strokes, versions
 from ..bake import job, places
 from ..compositor import tree as node
 from ..properties import arrange, image
-from ..recipe.read import NoPlace, fill_picture, refuse, strokes_of
+from ..recipe.read import NoPlace, clips_drawn_on, fill_picture, refuse, strokes_of
 from ..ui import polls
 from . import place
 from . import scene as settings
@@ -26,6 +26,8 @@ def open_recipe(scene, path: Path):
     recipe = engine.read_recipe(str(path))
     refuse(recipe)
     folder = path.resolve().parent
+    for clip in clips_drawn_on(recipe):
+        engine.clip_facts(folder / clip)
     shown, size = image.load(str(folder / recipe["picture"]))
     if recipe["size"] is not None and size != tuple(recipe["size"]):
         bpy.data.images.remove(shown)

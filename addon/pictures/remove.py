@@ -7,7 +7,7 @@ from bpy.props import BoolProperty
 from .. import versions
 from ..bake import job, keeping, places
 from ..bake.operators import sentence_of
-from ..properties import arrange, names
+from ..properties import arrange, clip, names
 from ..properties.picture import frame_size
 from ..ui import polls
 from . import place
@@ -44,7 +44,7 @@ class _Made:
         shared = {thing for other in others for thing in _things(other)}
         self.collection = picture.collection
         self.collection_is_ours = picture.collection not in shared
-        self.objects = [item for item in place.parts(picture) if item not in shared]
+        self.objects = [item for item in (*place.parts(picture), *clip.planes_of(picture)) if item not in shared]
         self.tree = picture.tree
         self.tree_is_ours = picture.tree not in shared
         self.image = picture.image
@@ -80,7 +80,9 @@ class _Made:
             if isinstance(data, bpy.types.Camera):
                 actions += _actions(data)
                 _purge(bpy.data.cameras, [data])
-            elif isinstance(data, bpy.types.ID) and not isinstance(data, bpy.types.Image):
+            elif isinstance(data, bpy.types.Image):
+                _purge(bpy.data.images, [data] if data.source == "MOVIE" else [])
+            elif isinstance(data, bpy.types.ID):
                 actions += _actions(data)
                 materials = list(data.materials)
                 _purge(versions.grease_pencils(), [data])
@@ -104,7 +106,8 @@ class _Made:
 
 
 def _things(picture) -> list:
-    return [thing for thing in (*place.parts(picture), picture.collection, picture.tree) if thing is not None]
+    made = (*place.parts(picture), *clip.planes_of(picture), picture.collection, picture.tree)
+    return [thing for thing in made if thing is not None]
 
 
 def _let_go(child) -> None:

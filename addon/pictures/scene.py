@@ -6,6 +6,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..compositor import tree as node
+from ..properties import clip
 from ..properties.picture import frame_size
 from . import fit
 
@@ -112,21 +113,26 @@ def show(scene, picture) -> bool:
     return False
 
 
-def look(scene, picture) -> None:
-    """Makes every 3D viewport that shows the scene look through its camera, at the whole picture."""
+def look(scene, picture, below=None) -> None:
+    """Makes every 3D viewport that shows the scene look through its camera, at the whole picture.
+
+    `below`: the plane of a clip that is to be seen with it, below it.
+    """
+    size = frame_size(picture)
+    share = fit.above(size, clip.size_of(below), clip.GAP) if below is not None else (1.0, 1.0)
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas if window.scene == scene else ():
             if area.type == "VIEW_3D":
-                _look_through(area, frame_size(picture))
+                _look_through(area, size, share)
 
 
-def _look_through(area, size: tuple[int, int]) -> None:
+def _look_through(area, size: tuple[int, int], share: tuple[float, float]) -> None:
     view = area.spaces.active.region_3d
     view.view_perspective = "CAMERA"
     boxes = {region: fit.Box(region.x, region.y, region.width, region.height) for region in area.regions}
     viewport = next(box for region, box in boxes.items() if region.type == "WINDOW")
     over = [(region.alignment, box) for region, box in boxes.items() if min(box.width, box.height) > 1]
-    within = fit.free(viewport, over)
+    within = fit.upper(fit.free(viewport, over), share)
     if min(within.width, within.height) > 1:  # it was drawn already
         view.view_camera_zoom, view.view_camera_offset = fit.view_of(viewport, within, size)
 

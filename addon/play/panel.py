@@ -28,6 +28,8 @@ class _Live(sidebar.OfPicture):
             sidebar.say(context, layout, stage.problem, "ERROR")
         elif stage.share is not None:
             layout.progress(factor=stage.share, text=iface_("Preparing {share:.0%}").format(share=stage.share))
+            if stage.what and stage.share < 1:
+                sidebar.say(context, layout, iface_(stage.what[:1].upper() + stage.what[1:]), "TIME")
         elif stage.rests:
             sidebar.say(context, layout, iface_("Nothing moves yet: give a layer a motion"), "INFO")
         elif stage.live is not None:

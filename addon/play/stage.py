@@ -36,6 +36,7 @@ class Stage:
         self.identifier, self._changed = identifier, changed
         self.problem = ""
         self.share: float | None = None  # of a preparation that runs
+        self.what = ""  # is being prepared, in the engine's words
         self.rests = False  # nothing of the picture moves
         self.shown: tuple = ()  # what the plane shows
         self.taken = 0  # how many recipes were taken
@@ -155,7 +156,7 @@ class Stage:
         if wanted == self._asked:
             return
         server.cancel(self._request)
-        self._asked, self.share = wanted, 0.0
+        self._asked, self.share, self.what = wanted, 0.0, ""
         try:
             self._request = server.prepare(self.identifier, self._subject, self._folder, self._longest, self._told)
         except (ValueError, OSError) as error:
@@ -171,8 +172,8 @@ class Stage:
     def _told(self, event: dict) -> None:
         """An answer of the server."""
         match event:
-            case {"event": "preparing", "share": float() | int() as share}:
-                self.share = float(share)
+            case {"event": "preparing", "share": float() | int() as share, **more}:
+                self.share, self.what = float(share), str(more.get("what", ""))
             case {"event": "done", "files": dict() as files}:
                 self._live.learn(files)
                 self._asked, self.share = "", None
@@ -188,13 +189,13 @@ def preparation(recipe: dict) -> list:
         [*(layer.get(name) for name in ("matte", "fill", "feather", "follows")), _endless(layer)]
         for layer in recipe["layers"]
     ]
-    return [recipe.get("picture"), recipe["colour_space"], layers]
+    return [recipe.get("picture"), recipe["colour_space"], recipe.get("fps"), recipe.get("loop"), layers]
 
 
 def _endless(layer: dict):
-    """What of its motion must be prepared: a flow's field and, where it is keyed, how far it carries."""
+    """What of its motion must be prepared: a flow's field and, where it is keyed, how far it carries; all of a clip."""
     motion = layer.get("motion", {})
-    return motion if motion.get("type") == "flow" else motion.get("type") == "drift"
+    return motion if motion.get("type") in ("flow", "example") else motion.get("type") == "drift"
 
 
 def moves(recipe: dict) -> bool:

@@ -15,6 +15,7 @@ from bpy.props import (
 
 from . import names
 
+clip_changed = []  # called with an example whose clip is another; rooms that show it add themselves
 PROPOSALS = [
     ("water", "Water", "Along its streaks, to the right"),
     ("falls", "Falls", "Down along its streaks"),
@@ -95,26 +96,35 @@ class STILLWATER_PG_flow(bpy.types.PropertyGroup):
     )
 
 
+def follow_clip(example, context) -> None:
+    """After another clip was chosen."""
+    for follow in clip_changed:
+        follow(example)
+
+
 class STILLWATER_PG_example(bpy.types.PropertyGroup):
     """A fluid that looks and moves as the one in a clip. What its next stroke says stands in the layer's flow."""
 
     clip: StringProperty(
-        name="Clip", description="Film of the fluid, taken with a camera that stands still", subtype="FILE_PATH", options=names.PATH
+        name="Clip", description="Film of the fluid, taken with a camera that stands still", subtype="FILE_PATH", options=names.PATH,
+        update=follow_clip,
     )
     use_clip_frames: BoolProperty(name="Part of the Clip", description="Use only some of its frames", options=set())
-    clip_first: IntProperty(name="First", description="First frame of the clip that is used", default=0, min=0, options=set())
-    clip_last: IntProperty(name="Last", description="Last frame of the clip that is used", default=100, min=0, options=set())
+    clip_first: IntProperty(
+        name="First", description="First frame of the clip that is used, counted from 1", default=1, min=1, options=set()
+    )
+    clip_last: IntProperty(name="Last", description="Last frame of the clip that is used", default=100, min=1, options=set())
     clip_fps: FloatProperty(
         name="Clip Rate", description="Frames of the clip in a second; 0 = as its file says [1/s]", default=0, min=0,
         max=1000, soft_max=120, options=set(),
     )
     clip_scale: FloatProperty(
-        name="Clip Scale", description="Picture pixels for a pixel of the clip", default=1, min=0.001, soft_min=0.1, max=100,
+        name="Clip Scale", description="How large the clip's details become: picture pixels for a pixel of it [px]", default=1, min=0.001, soft_min=0.1, max=100,
         soft_max=4, options=set(),
     )
     speed: speed()
     life: IntProperty(
-        name="Life Time", description="How long a detail of the clip is carried along [frames]", default=16, min=1, max=1000,
+        name="Life Time", description="How many frames of the clip a detail is carried along; fewer than it has [frames]", default=16, min=1, max=1000,
         soft_max=64, options=set(),
     )
     refine_width: refine_width()

@@ -27,6 +27,11 @@ def held():
         _held = False
 
 
+def is_held() -> bool:
+    """Whether paths are being rewritten just now."""
+    return _held
+
+
 def load(path: str):
     """A new image of the file and its size, px. Throws ValueError with a sentence; then no image is left."""
     if not path:

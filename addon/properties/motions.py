@@ -12,12 +12,10 @@ from bpy.props import (
     StringProperty,
 )
 
-from .. import engine
 from . import fluids, names
 
 ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": "MOD_WAVE"}
 ICONS |= {"drift": "OUTLINER_OB_VOLUME", "flow": "MOD_FLUIDSIM", "example": "FILE_MOVIE"}
-ICONS = {kind: icon for kind, icon in ICONS.items() if engine.has_motion(kind)}  # what has no engine yet is not shown
 # Of a motion, what belongs to one place of one picture; the rest is its look, which presets hold.
 PLACES = {"armature_root", "armature_tip", "waterline", "water_id", "water", "seed"}
 PLACES |= {"clip", "use_clip_frames", "clip_first", "clip_last", "clip_fps"}
@@ -159,7 +157,7 @@ class STILLWATER_PG_motion(bpy.types.PropertyGroup):
             ("bob", "Bob", "Boats: heaves and rolls with the water", ICONS["bob"], 3),
             ("drift", "Drift", "Clouds: passes endlessly", ICONS["drift"], 4),
             ("flow", "Flow", "Rivers, waterfalls, smoke, fire: flows for ever along strokes", ICONS["flow"], 5),
-            *([("example", "Example", "Looks and moves as a fluid in a clip", ICONS["example"], 6)] if "example" in ICONS else []),
+            ("example", "Example", "Looks and moves as a fluid in a clip of yours", ICONS["example"], 6),
         ],
     )
     sway: PointerProperty(type=STILLWATER_PG_sway)

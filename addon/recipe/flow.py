@@ -37,7 +37,30 @@ def drawn_of(motion: dict) -> dict[str, list]:
         found[key] = [
             {**stroke, "frame": frame} for frame in frames for stroke in strokes if stroke["frame"] in (None, frame)
         ]
-    return {**found, "freeze": motion.get("freeze", [])}
+    return {**found, "freeze": motion.get("freeze", []), **_clones_of(motion)}
+
+
+def clones(sources: list | None, targets: list | None) -> list[dict]:
+    """What is taken along strokes on the clip and laid along strokes on the picture: the first of both are a pair, and so
+    on. How wide and how strongly says the target."""
+    return [
+        {
+            "source": [point[:2] for point in source["points"]],
+            "target": [point[:2] for point in target["points"]],
+            "width": target["width"],
+            "alpha": target["alpha"],
+        }
+        for source, target in zip(sources or [], targets or [], strict=False)
+    ]
+
+
+def _clones_of(motion: dict) -> dict[str, list]:
+    """The other way round. A source is drawn as wide as what it takes is in the clip."""
+    said, scale = motion.get("transfer", {}).get("strokes", []), motion.get("clip_scale", 1.0)
+    return {
+        "clone_source": [{"points": clone["source"], "width": clone["width"] / scale} for clone in said],
+        "clone_target": [{"points": clone["target"], "width": clone["width"], "alpha": clone["alpha"]} for clone in said],
+    }
 
 
 def holding(strokes: list[dict], frame: int) -> list[dict]:

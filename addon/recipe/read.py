@@ -55,8 +55,6 @@ def refuse(recipe: dict) -> None:
         if motion["type"] not in MOTIONS:
             sentence = '{place}.motion.type: "{motion}" can\'t be opened in Blender yet'
             raise NoPlace(sentence, place=place, motion=motion["type"])
-        if motion.get("transfer", {}).get("strokes"):
-            raise NoPlace("{place}.motion.transfer.strokes: can't be opened in Blender yet", place=place)
         seeds[f"{place}.motion.seed"] = motion.get("seed")
         for part, said in ((f"{place}.matte", matte or {}), (f"{place}.fill.source", fill.get("source") or {})):
             seeds[f"{part}.value"] = said.get("value")
@@ -124,6 +122,12 @@ def _matte(matte, said: dict | None, locate: Locate, writer: _Writer) -> None:
     matte.form = next(form for form in FORMS if form in said)
     located = {matte.form: locate(said[matte.form])} if matte.form in ("file", "labels", "trimap") else {}
     writer.fields(matte, {**said, **located}, but=("scribbles", "lasso"))
+
+
+def clips_drawn_on(recipe: dict) -> list[str]:
+    """The clips of a recipe on which something is drawn, as it names them."""
+    motions = [layer["motion"] for layer in recipe["layers"]]
+    return [motion["clip"] for motion in motions if motion.get("transfer", {}).get("strokes") and "clip" in motion]
 
 
 def strokes_of(part: dict) -> dict[str, list]:

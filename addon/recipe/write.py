@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .animation import Animation
-from .flow import strokes_of_flow
+from .flow import clones, strokes_of_flow
 from .numbers import over_time, plain, plain_all
 
 Locate = Callable[[str], str]  # a path as Blender keeps it -> as the recipe has it
@@ -156,10 +156,9 @@ def _motion(layer, animation: Animation, locate: Locate, drawn: Drawn) -> dict:
             way = "velocity" if motion.drift.use_velocity else "wind"
             return {"type": "drift", way: _value(motion.drift, way, animation)}
         case "flow":
-            return {"type": "flow", **_flowing(layer, motion.flow, animation, drawn), "period": plain(motion.flow.period),
-                    **_given("freeze", drawn(layer.id, "freeze"))}
+            return {"type": "flow", **_flowing(layer, motion.flow, animation, drawn), "period": plain(motion.flow.period)}
         case "example":
-            return {"type": "example", **_flowing(layer, motion.example, animation, drawn), **_example(motion.example, locate)}
+            return {"type": "example", **_flowing(layer, motion.example, animation, drawn), **_example(layer, locate, drawn)}
     return {"type": "still"}
 
 
@@ -173,10 +172,14 @@ def _flowing(layer, numbers, animation: Animation, drawn: Drawn) -> dict:
         "refine": {"width": plain(numbers.refine_width), "amount": plain(numbers.refine_amount)},
         "speed": _value(numbers, "speed", animation),
         **_given("outline", outline),
+        **_given("freeze", drawn(layer.id, "freeze")),
     }
 
 
-def _example(example, locate: Locate) -> dict:
+def _example(layer, locate: Locate, drawn: Drawn) -> dict:
+    example, usual = layer.motion.example, {"alpha": plain(layer.motion.flow.stroke_alpha)}
+    targets = [{**usual, **stroke} for stroke in drawn(layer.id, "clone_target") or ()]
+    cloned = clones(drawn(layer.id, "clone_source"), targets)
     names = ("life", "repetitions", "matching", "endless")
     numbers = ("clip_scale", "shutter", "average_blur", "stylize")
     return {
@@ -186,5 +189,5 @@ def _example(example, locate: Locate) -> dict:
         **_given("grid", list(example.grid) if example.use_grid else None),
         **{name: getattr(example, name) for name in names},
         **{name: plain(getattr(example, name)) for name in numbers},
-        "transfer": {"patch": example.transfer_patch, "order": example.transfer_order},
+        "transfer": {"patch": example.transfer_patch, "order": example.transfer_order, **_given("strokes", cloned)},
     }

@@ -8,9 +8,11 @@
     brush                    the speed and the weight that each keeps
     change                   giving them another role
     lay                      from the recipe back to strokes
+    clip_plane               the clip of a layer, which some are drawn on
     panel                    its buttons, and the tool in the toolbar
 
-Others use drawn(), replaced(), cut_out(), ready(), lay_down(), scale_speeds(), copy_roles() and remove_roles().
+Others use drawn(), replaced(), unpaired(), cut_out(), ready(), lay_down(), show_clip(), scale_speeds(), copy_roles()
+and remove_roles().
 """
 
 from functools import cache
@@ -18,8 +20,8 @@ from functools import cache
 import bpy
 from bpy.app.handlers import persistent
 
-from ..properties import names
-from . import brush, draw_mode, gp_layers, lay, operators, panel, read, roles
+from ..properties import fluids, names
+from . import brush, clip_plane, draw_mode, gp_layers, lay, operators, panel, read, roles
 
 CLASSES = [*operators.CLASSES, *panel.CLASSES]
 
@@ -54,13 +56,31 @@ def replaced(scene, picture, layer=None) -> set[str]:
     return {name for role in there for name in role.replaces}
 
 
+def unpaired(scene, picture, layer) -> list[str]:
+    """A sentence where something is to be taken from the clip, or put somewhere, and the other is not drawn."""
+    if layer.motion.type != "example":
+        return []
+    sources, targets = (read.count(scene, picture, layer.id, roles.by_key(f"clone_{end}")) for end in ("source", "target"))
+    if sources > targets:
+        return ["A Clone Source has no Clone Target: draw on the picture where it goes"]
+    return ["A Clone Target has no Clone Source: draw on the clip what goes there"] if targets > sources else []
+
+
+def show_clip(picture, layer):
+    """The plane that shows the layer's clip, with what is drawn on it. Throws ValueError, OSError."""
+    shown = clip_plane.ensure(picture, layer)
+    gp_layers.lay_on_clip(picture, layer.id)
+    return shown
+
+
 def cut_out(scene, picture, layer) -> dict[str, list]:
     """What is drawn of a layer's matte and fill, and of how it flows, as lay_down() takes it.
 
     What other motions have drawn are numbers as well. Throws ValueError as drawn() does.
     """
     geometry, usual = drawn(scene, picture), brush.of_layer(layer.motion.flow)
-    said = {role.key: geometry(layer.id, role.key) for role in roles.of_layer(layer) if role.of or role.motion == "flow"}
+    kept = [role for role in roles.of_layer(layer) if role.of or role.motion in FLUIDS]
+    said = {role.key: geometry(layer.id, role.key) for role in kept}
     return {
         key: [{**usual, **stroke} for stroke in strokes] if roles.by_key(key).brushed else strokes
         for key, strokes in said.items() if strokes
@@ -80,6 +100,7 @@ def register():
         bpy.utils.register_class(cls)
     bpy.utils.register_tool(panel.STILLWATER_TL_stroke, after={"builtin.brush"})
     names.renamed.append(gp_layers.follow_names)
+    fluids.clip_changed.append(clip_plane.follow)
     for name in HANDLERS:
         getattr(bpy.app.handlers, name).append(_look_after)
 
@@ -87,6 +108,7 @@ def register():
 def unregister():
     for name in HANDLERS:
         getattr(bpy.app.handlers, name).remove(_look_after)
+    fluids.clip_changed.remove(clip_plane.follow)
     names.renamed.remove(gp_layers.follow_names)
     draw_mode.stop()
     bpy.utils.unregister_tool(panel.STILLWATER_TL_stroke)

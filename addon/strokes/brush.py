@@ -35,8 +35,8 @@ def of_curves(drawing, count: int) -> list[dict | None]:
 def stamp(picture, layer) -> int:
     """Gives all strokes of a layer that have no numbers yet those of the layer; returns how many there were."""
     said, count = of_layer(layer.motion.flow), 0
-    for role in roles.of_motion("flow"):
-        for part in gp_layers.of(picture, layer.id, role) if role.brushed else ():
+    for role in [role for role in roles.ROLES if role.brushed]:
+        for part in gp_layers.of(picture, layer.id, role):
             for key in part.frames:
                 curves = key.drawing.attributes.domain_size("CURVE")
                 flags = _numbers(key.drawing, curves)[0] if FLAGS in key.drawing.attributes else np.zeros(curves, int)
@@ -48,14 +48,14 @@ def stamp(picture, layer) -> int:
 
 
 def write(drawing, curves, said: list[dict]) -> None:
-    """Stores what some curves of a drawing say."""
+    """Stores what some curves of a drawing say; a clone target has nothing but its weight."""
     count = drawing.attributes.domain_size("CURVE")
     for name, kind in ((FLAGS, "INT"), (SPEED, "FLOAT"), (ALPHA, "FLOAT")):
         if name not in drawing.attributes:
             drawing.attributes.new(name, kind, "CURVE")
     flags, speeds, alphas = _numbers(drawing, count)
     for i, each in zip(curves, said, strict=True):
-        flags[i], speeds[i], alphas[i] = SAID | LOCAL * each["local"], each["speed"], each["alpha"]
+        flags[i], speeds[i], alphas[i] = SAID | LOCAL * each.get("local", False), each.get("speed", 0), each["alpha"]
     for name, values in ((FLAGS, flags), (SPEED, speeds), (ALPHA, alphas)):
         drawing.attributes[name].data.foreach_set("value", values)
 

@@ -7,8 +7,8 @@ two whole numbers hold the layer's id (12 hexadecimal digits, names.new_id) and 
 
 import bpy
 
-from ..properties import names
-from . import roles
+from ..properties import clip, names, plane
+from . import clip_plane, roles
 
 ATTRIBUTE = "stillwater"
 HALF = 24  # bits of an id in each number
@@ -32,20 +32,37 @@ def all_of(picture) -> list[tuple]:
 
 
 def ensure(picture, layer_id: str, role: roles.Role):
-    """The uppermost of them, made on the picture's plane where there is none."""
+    """The uppermost of them, made on the picture's plane, or the clip's, where there is none. Throws ValueError, OSError."""
+    drawn_on = _plane_of(picture, layer_id, role)
     there = of(picture, layer_id, role)
     if there:
+        lay_on_clip(picture, layer_id)
         return there[-1]
     gp = data_of(picture)
     made = gp.layers.new(_name(picture, layer_id, role), set_active=False)
-    _lay_on_plane(made, picture.plane)
+    _lay_on_plane(made, drawn_on)
     _mark(gp, made, layer_id, role)
     return made
 
 
+def lay_on_clip(picture, layer_id: str) -> None:
+    """What was drawn on a layer's clip lies on the plane that it has now."""
+    shown = clip.plane_of(picture, layer_id)
+    for role in roles.ROLES:
+        for part in of(picture, layer_id, role) if role.on_clip and shown is not None else ():
+            if part.parent != shown:
+                _lay_on_plane(part, shown)
+
+
+def pixels_to_world(picture, layer_id: str, role: roles.Role):
+    """4x4: from the pixels in which strokes of a role are measured, the picture's or the clip's. Throws ValueError."""
+    return clip.pixels_to_world(picture, layer_id) if role.on_clip else plane.pixels_to_world(picture)
+
+
 def copy(picture, from_id: str, to_id: str) -> None:
-    """Gives the layer `to_id` a copy of all strokes of the layer `from_id`."""
+    """Gives the layer `to_id` a copy of all strokes of the layer `from_id`, and of the clip that some are drawn on."""
     gp = data_of(picture)
+    clip_plane.copy(picture, from_id, to_id)
     active = gp.layers.active if gp is not None else None
     for role in roles.ROLES:
         for part in of(picture, from_id, role):
@@ -55,15 +72,17 @@ def copy(picture, from_id: str, to_id: str) -> None:
             made = gp.layers.active
             _mark(gp, made, to_id, role)
             made.name = _name(picture, to_id, role)
+    lay_on_clip(picture, to_id)
     if active is not None:
         gp.layers.active = active
 
 
 def remove(picture, layer_id: str) -> None:
-    """Removes all strokes of a layer."""
+    """Removes all strokes of a layer, and its clip from the scene."""
     for role in roles.ROLES:
         for part in of(picture, layer_id, role):
             data_of(picture).layers.remove(part)
+    clip_plane.remove(picture, layer_id)
 
 
 def fade(picture, layer_id: str = "") -> None:
@@ -116,13 +135,18 @@ def _name(picture, layer_id: str, role: roles.Role) -> str:
     return f"{layer.name} · {role.name}" if layer else role.name
 
 
-def _lay_on_plane(part, plane) -> None:
+def _plane_of(picture, layer_id: str, role: roles.Role):
+    """What strokes of a role are drawn on; a clip is shown where it was not. Throws ValueError, OSError."""
+    return clip_plane.ensure(picture, names.layer_by_id(picture, layer_id)) if role.on_clip else picture.plane
+
+
+def _lay_on_plane(part, drawn_on) -> None:
     """Makes its space the plane's, wherever the object is: strokes that are drawn along x and y lie on the picture.
 
     Blender keeps the place of what gets a parent: its own transform is the plane's of this moment.
     """
-    part.parent = plane
-    part.translation, turn, part.scale = plane.matrix_world.decompose()
+    part.parent = drawn_on
+    part.translation, turn, part.scale = drawn_on.matrix_world.decompose()
     part.rotation = turn.to_euler()
 
 

@@ -3,7 +3,6 @@
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..properties import plane
 from . import brush, gp_layers, read, roles
 from .lines import ANYWHERE
 
@@ -13,7 +12,7 @@ POLY = "POLY"
 def down(scene, picture, layer_id: str, said: dict[str, list]) -> None:
     """Draws, for each role's key, what the recipe has for it: strokes, touch-ups, or the corners of an outline.
 
-    Throws ValueError where the picture has no object for strokes.
+    Throws ValueError, OSError where the picture has no object for strokes, or a clip can't be shown.
     """
     if any(said.values()) and gp_layers.data_of(picture) is None:
         sentence = rpt_("{name}: has no drawing for strokes; make it anew with Set Up in Scene")
@@ -36,10 +35,12 @@ def _draw_at_keys(scene, picture, layer_id: str, role: roles.Role, strokes: list
             key = part.get_frame_at(scene.frame_start) or part.frames[0]
         else:
             key = next((key for key in part.frames if key.frame_number == frame), None) or part.frames.new(frame)
-        _draw(picture, part, key.drawing, role, [stroke for stroke in strokes if stroke.get("frame") == frame])
+        to_world = np.array(gp_layers.pixels_to_world(picture, layer_id, role))
+        said = [stroke for stroke in strokes if stroke.get("frame") == frame]
+        _draw(picture, part, key.drawing, role, said, to_world)
 
 
-def _draw(picture, part, drawing, role: roles.Role, strokes: list[dict]) -> None:
+def _draw(picture, part, drawing, role: roles.Role, strokes: list[dict], to_world: np.ndarray) -> None:
     lines = [stroke.get("stroke", stroke) for stroke in strokes]
     counts = [len(line["points"]) for line in lines]
     before, points_before = len(drawing.strokes), drawing.attributes.domain_size("POINT")
@@ -48,7 +49,7 @@ def _draw(picture, part, drawing, role: roles.Role, strokes: list[dict]) -> None
     pixels = np.array([point[:2] for line in lines for point in line["points"]], np.float64)
     pressures = [point[2] if len(point) > 2 else 1.0 for line in lines for point in line["points"]]
     widths = np.repeat([line.get("width", 4.0) for line in lines], counts) * pressures
-    places, unit = _on_plane(picture, part, pixels)
+    places, unit = _on_plane(picture, part, pixels, to_world)
     _store(drawing, "position", "FLOAT_VECTOR", "POINT", points_before, places)
     _store(drawing, "radius", "FLOAT", "POINT", points_before, widths / 2 * unit - part.radius_offset)
     slot = gp_layers.material(picture.strokes.data, role)
@@ -64,9 +65,8 @@ def _draw(picture, part, drawing, role: roles.Role, strokes: list[dict]) -> None
     drawing.tag_positions_changed()
 
 
-def _on_plane(picture, part, pixels: np.ndarray) -> tuple[np.ndarray, float]:
+def _on_plane(picture, part, pixels: np.ndarray, to_world: np.ndarray) -> tuple[np.ndarray, float]:
     """Pixels (n, 2) in a grease-pencil layer's own space (n, 3), and how long a pixel is for a radius."""
-    to_world = np.array(plane.pixels_to_world(picture))
     from_world = np.array(read.layer_to_world(picture.strokes, part).inverted_safe())
     matrix = from_world @ to_world
     pixel = np.sqrt(np.linalg.norm(to_world[:3, 0]) * np.linalg.norm(to_world[:3, 1]))

@@ -95,6 +95,11 @@ def flow_strokes(kind: str) -> Callable:
     return said
 
 
+def clone_targets(strokes: list[Stroke]) -> list | None:
+    """Every stroke with the weight that is its own; None where there is none."""
+    return [{**with_pressure(stroke), **({"alpha": stroke.flow["alpha"]} if stroke.flow else {})} for stroke in strokes] or None
+
+
 def _own(stroke: Stroke) -> dict:
     radius = None if stroke.radius < 0 else round(stroke.radius, DIGITS)
     return {**({"radius": radius} if stroke.radius else {}), **({"seed": stroke.seed - 1} if stroke.seed else {})}

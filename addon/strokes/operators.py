@@ -27,7 +27,7 @@ class OfRole:
         picture, role = context.scene.stillwater.active(), roles.by_key(self.role)
         try:
             return self.do(context, picture, self.layer_of(picture, role), role)
-        except ValueError as error:
+        except (ValueError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
 

@@ -36,7 +36,8 @@ def _draw_brush(layout, scene) -> None:
     if layer is not None and role.brushed:
         column = layout.column(align=True)
         column.use_property_split = True
-        sidebar.draw(column, layer.motion.flow, "stroke_speed", "stroke_local", "stroke_alpha")
+        said = ("stroke_alpha",) if role.motion == "example" else ("stroke_speed", "stroke_local", "stroke_alpha")
+        sidebar.draw(column, layer.motion.flow, *said)
 
 
 def _offered(picture, layer) -> list[roles.Role]:

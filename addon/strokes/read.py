@@ -27,7 +27,10 @@ def strokes(scene, picture, layer_id: str, role: Role, seen: Callable | None = N
     """
     found = []
     for part, keys in _shown(scene, picture, layer_id, role):
-        projected = seen() if seen is not None else projection_of(picture)
+        if role.on_clip:
+            projected = projection.onto_picture(np.array(gp_layers.pixels_to_world(picture, layer_id, role)))
+        else:
+            projected = seen() if seen is not None else projection_of(picture)
         try:
             for key in keys:
                 found += _in_drawing(picture.strokes, part, key, projected, role.brushed)
@@ -40,6 +43,12 @@ def is_drawn(scene, picture, layer_id: str, role: Role) -> bool:
     """Whether there is a stroke that says something; so cheap that panels may ask."""
     drawings = [key.drawing for _, keys in _shown(scene, picture, layer_id, role) for key in keys]
     return any(np.any(np.diff(control_points.offsets_of(drawing)) >= role.points) for drawing in drawings)
+
+
+def count(scene, picture, layer_id: str, role: Role) -> int:
+    """How many strokes of a role say something, of one that is not keyed; as cheap."""
+    drawings = [key.drawing for _, keys in _shown(scene, picture, layer_id, role) for key in keys]
+    return sum(int(np.sum(np.diff(control_points.offsets_of(drawing)) >= 1)) for drawing in drawings)
 
 
 def _shown(scene, picture, layer_id: str, role: Role):

@@ -24,6 +24,7 @@ class Role:
     of: str = ""  # what of a layer they say, and its form: "matte.scribbles", "fill.exemplar", "source.lasso"
     points: int = 2  # a stroke with fewer says nothing
     brushed: bool = False  # each stroke has a speed, a weight and a reach of its own (brush.py)
+    on_clip: bool = False  # drawn on the layer's clip, and measured in its pixels; else on the picture
     is_typed: Callable = lambda numbers: False  # whether the numbers that strokes stand for say it as well
 
 
@@ -103,6 +104,16 @@ ROLES = (
         colour=(0.8, 0.85, 0.95), icon="FREEZE", one=False, keyed=False, geometry=lines.all_strokes, points=1,
         hint="Draw over what stays where it is: rocks, banks, logs",
     ),
+    Role(
+        key="clone_source", number=15, name="Clone Source", motion="example", replaces=("clone_sources",), on_clip=True,
+        colour=(1.0, 0.55, 0.85), icon="EYEDROPPER", one=False, keyed=False, geometry=lines.all_strokes,
+        hint="Draw on the clip, below the picture, along what is to be taken; the first goes to the first Clone Target",
+    ),
+    Role(
+        key="clone_target", number=16, name="Clone Target", motion="example", replaces=("clone_targets",), brushed=True,
+        colour=(0.85, 0.25, 0.9), icon="DUPLICATE", one=False, keyed=False, geometry=lines.clone_targets,
+        hint="Draw on the picture where what a Clone Source takes is to go, as wide as the pen; the first is of the first",
+    ),
 )
 
 
@@ -136,7 +147,7 @@ def is_of_layer(role: Role) -> bool:
 def has(layer, role: Role) -> bool:
     """Whether strokes of this role say something of a layer as it is."""
     if not role.of:
-        return layer.motion.type == role.motion or (role.brushed and layer.motion.type in FLUIDS)
+        return layer.motion.type in (FLUIDS if role.motion == "flow" else (role.motion,))
     what, _, form = role.of.partition(".")
     if what == "matte":
         return layer.matte.form == form

@@ -1,22 +1,17 @@
 """Flows: what is drawn of them and what each stroke keeps, the recipe and back, their presets."""
 
 import importlib
-import json
-from types import SimpleNamespace
 
 import bpy
-import msgspec
 import numpy as np
 import pytest
 import recipes
 import stillwater
 from drawings import draw, lay_out, on_plane
 from layered import key, now, said
-from panels import Recorder, registered
+from panels import registered
 from panels import draw as show
 from pixels import PACKAGE
-from stillwater.recipe.engines import MOTIONS
-from stillwater.recipe.fluids import Example, Flow, Transfer
 from stillwater.recipe.strokes import FlowStroke, Outline, Refine
 
 room = lambda name: importlib.import_module(f"{PACKAGE}.{name}")  # noqa: E731
@@ -275,85 +270,3 @@ def test_every_kind_of_proposal_is_the_engine_s(river):
 
     offered = [item.identifier for item in river.motion.flow.bl_rna.properties["proposal"].enum_items]
     assert offered == list(KINDS)
-
-
-# -- the motion Example: prepared, and shown once the engine has it
-
-OURS = {"use_clip_frames", "clip_first", "clip_last", "use_grid", "refine_width", "refine_amount"}
-OURS |= {"outline_moving", "outline_persistence", "transfer_patch", "transfer_order"}
-WHOLE = {
-    "type": "example", "clip": "clip.mp4", "clip_frames": [3, 90], "clip_fps": 25, "clip_scale": 1.5, "life": 12, "speed": 0.5,
-    "refine": {"width": 20, "amount": 0.75}, "shutter": 0.125, "average_blur": 4, "matching": "laplacian", "grid": [8, 5],
-    "repetitions": 2, "stylize": 0.5, "endless": False, "transfer": {"patch": 24, "order": "best-first"},
-    "strokes": [{"points": [[1, 2], [9, 8]], "kind": "both", "speed": 3}],
-}  # fmt: skip
-
-
-def test_every_field_of_an_example_has_a_property(river):
-    group = river.motion.example
-    fields = {field.encode_name: field for field in stage_fields(Example)}
-    assert set(type(group).__annotations__) - OURS == set(fields) - {"strokes", "refine", "outline", "transfer", "clip_frames"}
-    assert {field.encode_name for field in stage_fields(Transfer)} == {"patch", "order", "strokes"}
-    for name in set(type(group).__annotations__) & set(fields) - {"clip", "grid", "clip_fps"}:
-        assert group.bl_rna.properties[name].default == pytest.approx(fields[name].default), name
-    assert [name for name, kind in group.bl_rna.properties.items() if kind.is_animatable and name not in ("rna_type", "name")] == ["speed"]
-
-
-def test_an_example_goes_to_the_recipe_and_back(extension, picture, river):
-    read, write = room("recipe.read"), room("recipe.write")
-    checked = msgspec.to_builtins(msgspec.convert(WHOLE, Example | Flow))
-    writer = read._Writer(lambda *_: None)
-    read._flowing(river.motion.flow, river.motion.example, checked)
-    read._example(river.motion.example, checked, lambda path: path)
-    writer.fields(river.motion.example, checked, but=("type", *read.PARTS))
-    layer = SimpleNamespace(id=river.id, motion=river.motion)
-    drawn = lambda identifier, key: [{**checked["strokes"][0], "frame": 1}] if key == "flow" else None  # noqa: E731
-    still = SimpleNamespace(values=lambda *_: None)
-    made = {"type": "example", **write._flowing(layer, river.motion.example, still, drawn),
-            **write._example(river.motion.example, lambda path: path)}  # fmt: skip
-    assert msgspec.convert(made, Example | Flow) == msgspec.convert(WHOLE, Example | Flow)
-
-
-def test_strokes_that_are_cloned_are_refused_not_dropped():
-    read = room("recipe.read")
-    motion = {**WHOLE, "transfer": {"strokes": [{"source": [[1, 1]], "target": [[2, 2]]}]}}
-    layer = {"matte": None, "fill": {}, "motion": motion}
-    recipe = {"picture": "p.png", "seed": 1, "wind": {"seed": None}, "layers": [layer]}
-    with pytest.raises(read.NoPlace, match=r"layers\[0\].motion.transfer.strokes: can't be opened in Blender yet"):
-        read.refuse(recipe)
-    read.refuse({**recipe, "layers": [{**layer, "motion": WHOLE}]})
-
-
-def test_it_is_shown_where_the_engine_has_it(extension, picture, river):
-    has = "example" in {kind.__struct_config__.tag for kind in MOTIONS}
-    assert extension.engine.has_motion("example") == has and extension.engine.has_motion("flow")
-    kinds = [item.identifier for item in river.motion.bl_rna.properties["type"].enum_items]
-    assert ("example" in kinds) == ("example" in files.KINDS) == ("example" in room("properties.motions").ICONS) == has
-
-
-def test_its_presets_are_the_published_parameters(river):
-    folder = files.SHIPPED / "presets" / "stillwater" / "example"
-    presets = [json.loads(path.read_text()) for path in sorted(folder.glob("*.json"))]
-    assert len(presets) == 8
-    published = [(40, 16, 0.4, 16, [4, 4], 3), (12, 16, 0.1, 8, [4, 3], 3), (30, 16, 0.1, 4, [8, 8], 3), (40, 16, 0.27, 14, [8, 8], 3)]
-    names = ("refine_width", "life", "shutter", "average_blur", "grid", "repetitions")
-    found = [tuple(preset["numbers"][name] for name in names) for preset in presets]
-    assert set(map(str, published)) <= set(map(str, found))
-    for preset in presets:
-        files.check(river.motion.example, files.Preset("", "example", "", preset["numbers"]))
-        files.apply(river.motion.example, files.Preset("", "example", "", preset["numbers"]))
-        assert river.motion.example.life == 16 and list(river.motion.example.grid) == preset["numbers"]["grid"]
-
-
-def test_its_panel_shows_every_number(river):
-    shown = Recorder()
-    river.motion.example.use_grid = river.motion.example.use_clip_frames = True
-    room("layers.panel_flow").draw_example(shown, river.motion.example, set())
-    hidden = {"outline_moving", "outline_persistence"}
-    assert set(shown.properties) == set(type(river.motion.example).__annotations__) - hidden
-
-
-def test_what_an_example_misses_is_a_sentence(picture):
-    example = SimpleNamespace(type="example", example=SimpleNamespace(clip=""))
-    said = room("layers.missing")._motion(picture, SimpleNamespace(motion=example), set())
-    assert said == ["Choose the clip whose fluid it looks like", "Press Flow and draw the way that it flows, or Propose Flow"]

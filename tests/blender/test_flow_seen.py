@@ -187,7 +187,7 @@ def test_the_proposal_becomes_strokes(extension, scene, streaky):
 
 def test_it_asks_for_a_layer_that_flows(scene, streaky):
     streaky.motion.type = "still"
-    with pytest.raises(RuntimeError, match="Select a layer with the motion Flow first"):
+    with pytest.raises(RuntimeError, match="Select a layer with the motion Flow or Example first"):
         bpy.ops.stillwater.propose_flow()
     streaky.motion.type = "flow"
     shown = Recorder()

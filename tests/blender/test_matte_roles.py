@@ -214,7 +214,7 @@ def test_the_menus_offer_new_layers(extension, scene):
     menu = Recorder()
     bpy.types.STILLWATER_MT_layer_from_outline.draw(SimpleNamespace(layout=menu), bpy.context)
     assert {"Tree", "Lake", "Boat", "Clouds", "Still"} <= set(menu.texts)
-    assert {made.motion for made in menu.made} == {"sway", "ripple", "bob", "drift", "flow", "still"}
+    assert {made.motion for made in menu.made} == {"sway", "ripple", "bob", "drift", "flow", "example", "still"}
 
 
 def test_strokes_that_cut_out_are_faint_unless_their_layer_is_drawn_on(scene, picture, layers):

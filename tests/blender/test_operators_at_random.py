@@ -7,6 +7,7 @@ import random
 from pathlib import Path
 
 import bpy
+import clips
 import invariants
 import pytest
 import recipes
@@ -17,9 +18,9 @@ from pictures import paint
 
 SEEDS, STEPS = 50, 15
 SLOW = 5  # every so-manieth sequence bakes, and plays its pictures live
-MOTIONS = ["still", "sway", "ripple", "bob", "drift", "flow"]
+MOTIONS = ["still", "sway", "ripple", "bob", "drift", "flow", "example"]
 ROLES = ["sway_line", "waterline", "horizon", "horizon", "foreground", "background", "outline", "touch_up"]
-ROLES += ["flow", "speed", "freeze"]
+ROLES += ["flow", "speed", "freeze", "clone_source", "clone_target"]
 
 
 class Artist:
@@ -44,6 +45,12 @@ class Artist:
         layers = [{**layer, "matte": {"file": "picture.png"}} for layer in some if layer["name"] in ("tree", "clouds")]
         whole |= {"frames": [1, 2], "layers": [*layers, {"name": "sky"}], "output": {"folder": "frames"}}
         return str(recipes.write(self.folder / "made", whole))
+
+    def clip_file(self) -> str:
+        path = self.folder / self.dice.choice(["fall.avi", "fire.avi", "gone.avi"])
+        if path.stem != "gone" and not path.exists():
+            clips.write(path, clips.passing((48, 32), frames=6))
+        return str(path)
 
     def preset_file(self) -> str:
         files = self.extension.layers.preset_files
@@ -74,6 +81,7 @@ CALLS = {
     "cancel": nothing,
     "change_role": one_of("role", ROLES),
     "check_frames": nothing,
+    "choose_clip": lambda artist: {"filepath": artist.clip_file()},
     "clear_unsaved": nothing,
     "clear_waterline": nothing,
     "collect": lambda artist: {"filepath": artist.file(".zip")},
@@ -94,6 +102,7 @@ CALLS = {
     "move_layer": one_of("direction", ["UP", "DOWN", "TOP", "BOTTOM"]),
     "open_picture": lambda artist: {"filepath": artist.picture_file(), "use_render": artist.dice.random() < 0.8},
     "paste_layers": nothing,
+    "pick_speed": one_of("place", [(4, 4), (500, 3)]),
     "propose_flow": one_of("kind", ["water", "smoke"]),
     "refresh": nothing,
     "reload_picture": nothing,
@@ -106,6 +115,7 @@ CALLS = {
     "set_flow": one_of("speed", [0, 3]),
     "select_layers": one_of("action", ["SELECT", "DESELECT", "INVERT", "MOTION"]),
     "set_motion": one_of("type", MOTIONS),
+    "show_clip": nothing,
     "show_layers": one_of("visible", [True, False]),
     "show_picture": one_of("index", [-1, 0, 1, 7]),
     "standard_view": nothing,

@@ -155,7 +155,7 @@ def test_the_menu_of_layers_holds_what_has_no_button(picture):
     wanted |= {"copy_to_selected", "layers_from_mask", "layers_from_pass"}
     drawn = menu("STILLWATER_MT_layers")
     assert {f"stillwater.{name}" for name in wanted} == set(drawn.operators)
-    assert menu("STILLWATER_MT_motion").texts == ["Still", "Sway", "Ripple", "Bob", "Drift", "Flow"]
+    assert menu("STILLWATER_MT_motion").texts == ["Still", "Sway", "Ripple", "Bob", "Drift", "Flow", "Example"]
 
 
 @pytest.mark.parametrize("panel_name, names", [("STILLWATER_PT_motion_presets", ["Lake", "Pond", "Sea"]),

@@ -11,13 +11,15 @@ from layered import fill, key, now, order, said, select
 from pixels import PACKAGE
 
 files = importlib.import_module(f"{PACKAGE}.layers.preset_files")
-SHIPPED = [(kind, path) for kind in files.KINDS if kind != "flow" for path in files.paths(kind)]  # test_flow.py has those
+OTHERS = ("flow", "example")  # test_flow.py and test_example.py have those
+SHIPPED = [(kind, path) for kind in files.KINDS if kind not in OTHERS for path in files.paths(kind)]
 NAMES = {
     "sway": {"Still Tree", "Tree", "Tree in a Storm", "Reeds and Grass"},
     "ripple": {"Pond", "Lake", "Sea"},
     "bob": {"Boat", "Ship"},
     "drift": {"Clouds", "Clouds in a Storm"},
     "flow": {"River", "Rapids", "Waterfall", "Sea", "Smoke", "Fire", "Passing Clouds"},
+    "example": {"River", "Campfire", "Water Surface", "Brook", "Waterfall", "Wide Waterfall", "Smoke", "Thin Smoke"},
     "wind": {"Calm", "Breeze", "Wind", "Storm"},
 }
 
@@ -138,6 +140,8 @@ def test_an_own_preset_is_saved_as_a_file_and_brings_every_number_back(extension
             value = not rna.default
         else:
             value = [1.25, -2.5] if rna.is_array else rna.default * 0.5 + 0.125
+            if rna.type == "INT":
+                value = [7, 9] if rna.is_array else rna.default + 1
         setattr(group, name, value)
         changed[name] = getattr(group, name) if not getattr(rna, "is_array", False) else tuple(getattr(group, name))
     assert bpy.ops.stillwater.save_preset(name="My Own: été", of=of) == {"FINISHED"}
@@ -172,6 +176,8 @@ def test_what_is_no_own_preset_is_never_deleted(scene, tmp_path):
         ("", "is not a preset of Stillwater"),
         ("[]", "is not a preset of Stillwater"),
         ('{"stillwater_preset": 1, "kind": "sway"}', "is not a preset of Stillwater"),
+        ('{"stillwater_preset": 1, "kind": "sway", "numbers": {}, "size": [0, 5]}', "is not a preset of Stillwater"),
+        ('{"stillwater_preset": 1, "kind": "sway", "numbers": {}, "size": 5}', "is not a preset of Stillwater"),
         ('{"stillwater_preset": 2, "kind": "sway", "numbers": {}}', "is a preset of another version of Stillwater"),
         ('{"stillwater_preset": 1, "kind": "swim", "numbers": {}}', "is a preset of another version of Stillwater"),
         ('{"stillwater_preset": 1, "kind": "sway", "numbers": {"speed": 1}}', "has no speed that a preset could set"),
