@@ -9,7 +9,7 @@ run_sanitized() {
   cp -r "$repository/native/python/stillwater" "$folder/site/"
   cp "$folder"/engine/native/bindings/_stillwater*.so "$folder/site/stillwater/"
   local rooms=("$@")
-  [ ${#rooms[@]} = 0 ] && rooms=(tests/core tests/picture tests/patches tests/layers tests/motion tests/flow tests/appearance tests/frame)
+  [ ${#rooms[@]} = 0 ] && rooms=(tests/core tests/picture tests/patches tests/layers tests/motion tests/flow tests/appearance tests/example tests/frame)
   # Python itself and the libraries keep memory to the end of the process: leaks are not what is looked for here.
   LD_PRELOAD="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libstdc++.so)" PYTHONPATH="$folder/site" \
     ASAN_OPTIONS=detect_leaks=0:halt_on_error=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
