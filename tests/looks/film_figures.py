@@ -10,13 +10,16 @@ OCTAVES = 4
 
 
 def spectrum(film: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    """Mean power of the pixels' changes in time, octave by octave from the fastest down, in dB."""
+    """Mean power of the pixels' changes in time, octave by octave from the fastest down, as many as the film is long for, in
+    dB."""
     series = film[:, mask] - film[:, mask].mean(axis=0)
     window = np.hanning(len(series))[:, None]
     power = (np.abs(np.fft.rfft(series * window, axis=0)) ** 2).mean(axis=1)
     top, octaves = len(power), []
     for _ in range(OCTAVES):
         low = top // 2
+        if max(low, 1) >= top:
+            break
         octaves.append(power[max(low, 1) : top].mean())
         top = low
     return 10 * np.log10(np.maximum(octaves, 1e-12))
