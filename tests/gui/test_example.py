@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 import clips  # noqa: E402
 
 SAMPLE = Path(__file__).resolve().parents[2] / "blend_samples" / "lake"
-WATER = (460, 600, 640, 760)  # left, top, right, bottom
+WATER = (660, 520, 940, 780)  # left, top, right, bottom
 SIZE = (320, 180)  # px, of the clip
 TAKEN, LAID = [(40, 60), (160, 70), (280, 60)], [(420, 500), (600, 520), (800, 500)]
 ALONG = [(400, 600), (620, 690), (900, 700)]
@@ -103,8 +103,9 @@ def test_it_plays_like_the_clip(window):
     yield from window.until(lambda: stage().share is None and not stage().problem and is_live(), 150, lambda: f"not ready: {stage().problem}")
     yield from window.screenshot("63-live")
     seen = []
-    for frame in (1, 4, 9):
+    for frame in (1, 9, 17):
         bpy.context.scene.frame_set(frame)
         yield from window.settle()
         seen.append(window.pixels(part(window, WATER)).astype(float))
-    assert min(np.abs(after - before).mean() for before, after in zip(seen, seen[1:])) > 0.5, "the water does not move"
+    changes = [np.abs(after - before).mean() for before, after in zip(seen, seen[1:])]
+    assert min(changes) > 0.5, f"the water does not move: {changes}"
