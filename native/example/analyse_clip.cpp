@@ -16,6 +16,7 @@ namespace {
 
 constexpr double around = 4;  // px: sigma over which the residuals' energy is taken
 constexpr double shortest_reach = 0.5;
+constexpr int looked_at = 8;  // frames, for what moves
 
 Rgb mean_frame(const HalfFrames& frames, Progress& progress) {
   cv::Mat_<cv::Vec3d> sum(frames.size(), cv::Vec3d());
@@ -34,6 +35,21 @@ void take_off(HalfFrames& frames, const Rgb& average) {
   parallel_rows(frames.count(), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) frames.write(i, frames.read(i) - average);
   });
+}
+
+// Of frames spread over the clip, and of its average.
+MovingShares moving_shares(const std::vector<Plane>& differences, const Rgb& average, const Plane& energy) {
+  const MovingShares stands = band_squares(luma(average), energy);
+  MovingShares shares{};
+  for (const Plane& difference : differences) {
+    const MovingShares moves = band_squares(difference, energy);
+    for (int band = 0; band < share_bands; ++band) shares[band] += moves[band] / static_cast<double>(differences.size());
+  }
+  for (int band = 0; band < share_bands; ++band) {
+    const double all = shares[band] + stands[band];
+    shares[band] = all > 0 ? shares[band] / all : 1;
+  }
+  return shares;
 }
 
 /// Sums over all pixels of all residuals.
@@ -119,12 +135,16 @@ ClipAnalysis analyse_clip(HalfFrames& frames, const AnalyseParameters& parameter
   take_off(frames, average);
   progress.phase("finding the clip's flow", 0.7);
   const Field velocity = mean_clip_flow(frames, parameters.flow, parameters.quality, progress);
+  std::vector<Plane> spread_out;
+  const int apart = std::max(1, frames.count() / looked_at);
+  for (int i = 0; i < frames.count(); i += apart) spread_out.push_back(luma(frames.read(i)));
   progress.phase("finding the clip's residuals", 0.2);
   Residuals residuals(frames, velocity);
   residuals.make(progress);
   ClipAnalysis found = residuals.summed();
   found.average = average;
   found.velocity = velocity;
+  found.moving = moving_shares(spread_out, average, found.energy);
   return found;
 }
 

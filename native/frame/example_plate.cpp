@@ -1,6 +1,7 @@
 #include "frame/example_plate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/check.h"
@@ -58,6 +59,8 @@ CarriedResiduals carried_over(const Plate& plate, const ExampleSetup& setup, con
 ExamplePlate::ExamplePlate(const Plate& plate, const ExampleSetup& setup, const ExampleLook* look)
     : plate_(plate),
       parameters_(setup.look),
+      moving_(setup.moving),
+      clip_pixel_(setup.transfer.clip_scale * plate.scale),
       texture_(opaque(plate.source.pixels())),
       velocities_(scaled_fields(setup.velocities, plate)),
       mean_velocity_(mean_of(velocities_)),
@@ -96,7 +99,10 @@ ExampleLook ExamplePlate::make_look(Progress progress) const {
   }
   const Rgb difference = without_coverage(texture_) - average;
   const LocalContrast contrast = local_contrast(difference, moments, coverage_of(plate_.source.pixels()), around_of_cell * cell());
-  ExampleLook look{average + contrast.mean, contrast.slope, contrast.hold, {}};
+  const Rgb detail = difference - contrast.mean, standing = standing_part(detail, moving_, clip_pixel_);
+  const double all = cv::norm(detail, cv::NORM_L2SQR), stands = cv::norm(standing, cv::NORM_L2SQR);
+  const double moves = all > 0 ? std::sqrt(std::max(0.0, 1 - stands / all)) : 1;
+  ExampleLook look{average + contrast.mean + standing, contrast.slope * moves, contrast.hold, {}};
   if (!parameters_.matched) return look;
   progress.phase("finding its texture", 0.4);
   for (int i = 0; i < moments_of_curves; ++i) {

@@ -7,6 +7,7 @@
 #include "appearance/motion_blur.h"
 #include "core/progress.h"
 #include "example/carried_residuals.h"
+#include "example/moving_share.h"
 #include "frame/displaced_layer.h"
 
 namespace stillwater {
@@ -29,6 +30,7 @@ struct ExampleSetup {
   std::vector<CloneStroke> strokes;    ///< likewise
   TransferParameters transfer;
   double reach = 1;                    ///< ClipAnalysis::reach
+  MovingShares moving{1, 1, 1};        ///< ClipAnalysis::moving
   std::vector<Field> velocities;       ///< of the layer's box at the picture's scale, px per step of the clip, at least one
   Plane freeze;                        ///< of the box: 1 is held still; or empty
   CarriedResiduals::Parameters carried;
@@ -37,7 +39,7 @@ struct ExampleSetup {
 
 /// What of a layer's look takes long to find: it is the same for all frames, so that nothing flickers.
 struct ExampleLook {
-  Rgb base;              ///< A' and the mean of C
+  Rgb base;              ///< A', the mean of C and what of it stands
   Rgb slope;             ///< of the differences (local_contrast.h)
   Plane hold;
   TextureCurves curves;  ///< the mean of those of a few moments
@@ -45,8 +47,9 @@ struct ExampleLook {
 
 /// A layer that flows like a clip, ready for any moment (Okabe et al. 2009, 4):
 ///
-///     F'(s) = A' + slope luma(D'(s)) + mean C, then matched to the picture's texture by the look's curves
+///     F'(s) = A' + mean C + standing C + slope luma(D'(s)), then matched to the picture's texture by the look's curves
 ///
+/// As much of the picture's detail stands as of the clip's does (moving_share.h).
 /// Without an outline: the colours are those of extend_colours(), coverage is the still layer's. What is frozen shows the
 /// picture, and so does a layer whose flows stand everywhere.
 class ExamplePlate {
@@ -73,6 +76,8 @@ class ExamplePlate {
 
   const Plate& plate_;
   LookParameters parameters_;
+  MovingShares moving_;
+  double clip_pixel_;  ///< px of the plate
   Rgba texture_;
   std::vector<Field> velocities_;
   Field mean_velocity_;

@@ -21,6 +21,11 @@ def reference_residuals(clip, velocity):
     return np.array([differences[0], *(d - b for d, b in zip(differences[1:], back[:-1], strict=True))])
 
 
+def whole(found, residuals):
+    moving = np.array(found.moving)
+    return stillwater.ClipAnalysis(found.average, found.velocity, residuals, found.energy, moving, 24, found.reach, found.explained)
+
+
 def psnr(a, b):
     return -10 * np.log10(np.mean((a - b) ** 2))
 
@@ -59,6 +64,16 @@ def test_what_the_flow_predicts_is_told():
     assert analysed(boiling(16))[0].explained < 0.2
 
 
+@pytest.mark.parametrize("strength", [0.0, 1.0, 2.0])
+def test_what_stands_is_told_from_what_moves(strength):
+    """Noise that boils over noise that stands, as fine, and `strength` times as strong."""
+    boils, stands = boiling(24) - 0.5, boiling(1, seed=7)[0] - 0.5
+    found, _ = analysed(0.5 + boils + strength * stands)
+    average = 1 / 24  # of what boils, this much stands in a clip of 24 frames
+    expected = (1 - average) / (1 + strength**2)
+    np.testing.assert_allclose(found.moving, expected, atol=0.12)
+
+
 @pytest.mark.parametrize("size", [1.5, 3.0])
 def test_residuals_reach_as_far_as_the_noise_does(size):
     """Noise blurred by a Gaussian is alike by exp(-d^2 / 4 size^2)."""
@@ -70,7 +85,7 @@ def test_residuals_reach_as_far_as_the_noise_does(size):
 def test_put_together_for_its_whole_length_it_is_the_clip(clip):
     """Okabe et al. 2009, 3: D_0 as the first residual, and a life that never ends."""
     found, residuals = analysed(clip)
-    analysis = stillwater.ClipAnalysis(found.average, found.velocity, residuals, found.energy, 24, found.reach, found.explained)
+    analysis = whole(found, residuals)
     for frame in (0, 1, 9, 23):
         assert psnr(stillwater.reconstruct(analysis, frame, life=24), clip[frame]) > 40
 
@@ -78,7 +93,7 @@ def test_put_together_for_its_whole_length_it_is_the_clip(clip):
 def test_between_two_frames_it_is_both_carried_half_way():
     clip = carried((2, 0), 12)
     found, residuals = analysed(clip)
-    analysis = stillwater.ClipAnalysis(found.average, found.velocity, residuals, found.energy, 24, found.reach, found.explained)
+    analysis = whole(found, residuals)
     between = stillwater.reconstruct(analysis, 6.5, life=12)
     true = carried((1, 0), 24)[13]  # half the way, twice the frames
     assert psnr(between[INSIDE], (true * np.cos(0) + 0)[INSIDE]) > 20  # the texture also changes, at another pace
@@ -89,7 +104,7 @@ def test_between_two_frames_it_is_both_carried_half_way():
 def test_a_short_life_loses_what_is_older():
     clip = carried((2, 0), 24)
     found, residuals = analysed(clip)
-    analysis = stillwater.ClipAnalysis(found.average, found.velocity, residuals, found.energy, 24, found.reach, found.explained)
+    analysis = whole(found, residuals)
     short, long = (psnr(stillwater.reconstruct(analysis, 20, life), clip[20]) for life in (8, 24))
     assert long > short + 10
 

@@ -190,7 +190,8 @@ def test_it_looks_like_the_picture_and_moves_like_the_clip(brook):
     shown = np.array([frames.frame(t).combined[POND][..., 1] for t in range(1, 17)])
     assert abs(shown.mean() - still[POND][..., 1].mean()) < 0.02
     assert shown.std(axis=(1, 2)).mean() == pytest.approx(still[POND][..., 1].std(), rel=0.15)
-    along = engine.optical_flow(shown[4], shown[5], "medium")[20:-20, 20:-20, 0]
+    moving = shown - shown.mean(axis=0)  # some of the picture's detail stands, as some of the clip's does
+    along = np.concatenate([engine.optical_flow(moving[t], moving[t + 1], "medium")[20:-20, 20:-20, 0] for t in (2, 7, 12)])
     assert 0.7 < np.median(along) < 2.3
 
 

@@ -55,7 +55,7 @@ def look_key(layers: str, index: int, film: Film, scale: float) -> str:
 
 
 def take_apart(document: Document, example: Example, place: str, beat: Callable[[], None]) -> Prepared:
-    """The clip. Arrays average, velocity, energy, residuals; facts fps, reach, explained, warnings. Throws RecipeError."""
+    """The clip. Arrays average, velocity, energy, residuals; facts fps, reach, moving, explained, warnings. Throws RecipeError."""
 
     def still_there(*_) -> bool:
         beat()
@@ -71,7 +71,7 @@ def take_apart(document: Document, example: Example, place: str, beat: Callable[
     if len(clip.frames) <= example.life:
         raise RecipeError(f"{place}.life: {example.life} is not below the clip's {len(clip.frames)} frames")
     arrays = {"average": found.average, "velocity": found.velocity, "energy": found.energy, "residuals": clip.frames}
-    facts = {"fps": clip.fps, "reach": found.reach, "explained": found.explained, "warnings": clip.warnings}
+    facts = {"fps": clip.fps, "reach": found.reach, "moving": found.moving, "explained": found.explained, "warnings": clip.warnings}
     return Prepared(arrays, facts)
 
 
@@ -105,6 +105,7 @@ def setup(
         strokes=strokes,
         transfer=_transfer_parameters(example),
         reach=clip.facts["reach"],
+        moving=clip.facts["moving"],
         velocities=[np.asarray(field) / np.float32(pace.steps) for field in fields],
         freeze=freeze,
         life=example.life,

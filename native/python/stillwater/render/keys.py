@@ -27,7 +27,7 @@ ENGINES = {
     "bob": 1,
     "drift": 3,
     "flow": 2,
-    "clip": 1,
+    "clip": 2,
     "appearance": 1,
     "example": 1,
 }
