@@ -9,7 +9,6 @@ import clips
 import msgspec
 import numpy as np
 import pytest
-import recipes
 import stage
 import stillwater
 from drawings import draw
