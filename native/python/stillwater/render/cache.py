@@ -12,6 +12,7 @@ import secrets
 import shutil
 import socket
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -77,16 +78,22 @@ class Cache:
         return self.find(key) or prepared
 
     @contextlib.contextmanager
-    def lock(self, key: str, between=lambda: None):
-        """One worker at a time prepares what has this key; `between` is called while another one does."""
+    def lock(self, key: str, beat: Callable[[], None] = lambda: None) -> Iterator[Callable[[], None]]:
+        """One worker at a time prepares what has this key. `beat` is called while another one does; whoever has the lock calls
+        what comes instead, again and again: `beat`, and the lock's own."""
         lock = Lock(self.folder / f"{key}.lock")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            lock.wait(between)
+            lock.wait(beat)
         except OSError as error:
             self._note(error)
+
+        def still_there() -> None:
+            beat()
+            lock.beat()
+
         with lock:
-            yield lock
+            yield still_there
 
     def known(self, path: Path) -> str | None:
         """The hash of a file's bytes where it is remembered by size and time. Throws OSError where there is no file."""

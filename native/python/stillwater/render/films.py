@@ -16,7 +16,8 @@ from ..recipe.fluids import Example
 from .cache import Prepared
 from . import clips
 from .filming import ExampleTrack, Pace
-from .keys import ENGINES, hashed
+from .keys import ENGINES, hashed, look_facts
+from .lock import as_progress
 
 MEMORY = 1.2e9  # bytes that a clip may need while it is taken apart
 
@@ -36,9 +37,8 @@ class Film(msgspec.Struct, frozen=True):
 def film_of(track: ExampleTrack, clip: str, fps: float) -> Film:
     """`clip`: the digest of its file."""
     example = track.example
-    look = {name: getattr(example, name) for name in example.__struct_fields__ if name not in ("strokes", "speed", "clip", "outline")}
     transfer = hashed([example.transfer, example.clip_scale])
-    return Film(clip, tuple(track.paintings), hashed(look), transfer, example.clip_frames, fps, track.over_loop)
+    return Film(clip, tuple(track.paintings), hashed(look_facts(example)), transfer, example.clip_frames, fps, track.over_loop)
 
 
 def clip_key(film: Film) -> str:
@@ -57,13 +57,9 @@ def look_key(layers: str, index: int, film: Film, scale: float) -> str:
 def take_apart(document: Document, example: Example, place: str, beat: Callable[[], None]) -> Prepared:
     """The clip. Arrays average, velocity, energy, residuals; facts fps, reach, moving, explained, warnings. Throws RecipeError."""
 
-    def still_there(*_) -> bool:
-        beat()
-        return True
-
     try:
-        clip = clips.read_frames(str(document.locate(example.clip)), example.clip_frames, MEMORY, still_there)
-        found = clips.take_apart(clip, "dense", "medium", False, still_there)
+        clip = clips.read_frames(str(document.locate(example.clip)), example.clip_frames, MEMORY, lambda share: beat())
+        found = clips.take_apart(clip, "dense", "medium", False, as_progress(beat))
     except engine.BadInput as error:
         raise RecipeError(f"{place}.{error}") from None
     except engine.FileError as error:
@@ -122,12 +118,8 @@ def pace_of(track: ExampleTrack, clip: Prepared, fps: float) -> Pace:
 def make_look(plates: Callable[[], engine.LayerPlates], beat: Callable[[], None], place: str) -> Prepared:
     """What makes residuals look like the picture. `plates` makes the layer ready, without a look. Throws RecipeError."""
 
-    def still_there(*_) -> bool:
-        beat()
-        return True
-
     try:
-        look = engine.make_look(plates(), still_there)
+        look = engine.make_look(plates(), as_progress(beat))
     except engine.BadInput as error:
         raise RecipeError(f"{place}.{error}") from None
     numbers, lengths, pixels = look.curves

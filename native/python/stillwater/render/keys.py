@@ -163,9 +163,13 @@ def matte_facts(matte, digests: dict[str, str]):
 
 def film_facts(example: Example, digests: dict[str, str], recipe: Recipe):
     """All of a film that does not change from frame to frame: the clip by what it holds, its strokes by its fields."""
-    moving = ("clip", "strokes", "refine", "freeze", "speed", "outline")
-    look = [getattr(example, name) for name in example.__struct_fields__ if name not in moving]
-    return [digests[example.clip], look, recipe.fps, recipe.frames if recipe.loop else None]
+    return [digests[example.clip], look_facts(example), recipe.fps, recipe.frames if recipe.loop else None]
+
+
+def look_facts(example: Example) -> list:
+    """The recipe's words on a film, but for its clip, what its fields are made of (flowing.py's Painting), and its speed."""
+    elsewhere = ("clip", "strokes", "refine", "freeze", "speed", "outline")
+    return [getattr(example, name) for name in example.__struct_fields__ if name not in elsewhere]
 
 
 def fill_facts(fill, digests: dict[str, str]):

@@ -78,12 +78,7 @@ class Job:
         """Leaves the layers in `stack`: from the cache, from another worker that is at it, or cut now."""
         if self.stack is not None:
             return
-        with self.cache.lock(self.sources.key, claim.beat) as lock:
-
-            def beat() -> None:
-                claim.beat()
-                lock.beat()
-
+        with self.cache.lock(self.sources.key, claim.beat) as beat:
             if not self.order.fresh:
                 self.stack = find_stack(self.cache, self.sources.key)
             if self.stack is None:

@@ -46,12 +46,7 @@ def prepare(document: Document, longest: int, cache: Cache, beat: Callable = lam
     sources = Sources(document, cache)
     key = _key(sources.key, longest)
     if cache.find(key) is None:
-        with cache.lock(key, beat) as lock:
-
-            def still_there() -> None:
-                beat()
-                lock.beat()
-
+        with cache.lock(key, beat) as still_there:
             if cache.find(key) is None:
                 stack = yield from layers_of(sources, cache, still_there)
                 yield Preparing(0.9, "making the layers small")

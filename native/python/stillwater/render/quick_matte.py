@@ -11,6 +11,7 @@ from .cache import Cache, Prepared
 from .errors import Failed
 from .events import Event, QuickMatte
 from .keys import hashed
+from .lock import as_progress
 from .mattes import MatteReader, ToSolve, whole
 from .prepare import Sources
 from .stack import leave
@@ -78,9 +79,5 @@ def _left(sources: Sources, cache: Cache, picture: np.ndarray, index: int) -> np
 
 
 def _solved(matte: ToSolve, left: np.ndarray, beat: Callable[[], None]):
-    def still_there(phase: str, share: float) -> bool:
-        beat()
-        return True
-
     finest = min(8, 2 ** math.ceil(max(0.0, math.log2(max(1, matte.unknown) / AT_ONCE) / 2)))
-    return matte.on(lambda: left, still_there, finest)
+    return matte.on(lambda: left, as_progress(beat), finest)

@@ -17,6 +17,7 @@ from .cache import Cache, Prepared
 from .events import Event, Preparing, Warn
 from .fields import frozen_part, make_field
 from .keys import ENGINES, hashed
+from .lock import as_progress
 from .resolve import Timeline
 from .stack import layer_images
 
@@ -124,15 +125,11 @@ class Canvas:
         yield Step(keys[count + 2], f"making the clip look like {name}", look)
 
     def _endless(self, way: Way, beat: Callable) -> Prepared:
-        def still_there(phase: str, share: float) -> bool:
-            beat()
-            return True
-
         arrays = {}
         for part in parts_of(self.layers):
             image = layer_images(self.layers, part)[way.layer]
             if min(image.box[2:]) > 0:
-                made = engine.make_endless(image, self.size, self.scale, way.axes, progress=still_there)
+                made = engine.make_endless(image, self.size, self.scale, way.axes, progress=as_progress(beat))
                 arrays |= {f"{part}_pixels": made[0], f"{part}_mean": made[1]}
         return Prepared(arrays, {})
 
@@ -192,12 +189,7 @@ def make_ready(
             found = cache.find(step.key)
             if found is None:
                 yield Preparing(0.95, step.what)
-                with cache.lock(step.key, beat) as lock:
-
-                    def still_there(lock=lock) -> None:
-                        beat()
-                        lock.beat()
-
+                with cache.lock(step.key, beat) as still_there:
                     found = cache.find(step.key)
                     if found is None:
                         new = step.make(made, still_there)

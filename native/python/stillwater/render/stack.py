@@ -9,6 +9,7 @@ from ..recipe import RecipeError
 from .cache import Cache, Prepared
 from .events import Event, Preparing, Warn
 from .fills import Exemplar
+from .lock import as_progress
 from .prepare import Images, Sources
 
 NOTHING = np.zeros((0, 0, 4), np.float32)
@@ -41,10 +42,10 @@ def cut(
         beat()
         kept = None if fresh else cache.find(key)
         if kept is None:
-            with cache.lock(key, beat):
+            with cache.lock(key, beat) as still_there:
                 kept = None if fresh else cache.find(key)
                 if kept is None:
-                    kept = cache.store(key, _taken(peelings, images, i, layer.feather, beat))
+                    kept = cache.store(key, _taken(peelings, images, i, layer.feather, still_there))
                     layers.append(kept)
                     continue
         leave(peelings, kept)
@@ -61,12 +62,7 @@ def layers_of(sources: Sources, cache: Cache, beat: Callable[[], None]) -> Gener
     stack = find_stack(cache, sources.key)
     if stack is not None:
         return stack
-    with cache.lock(sources.key, beat) as lock:
-
-        def still_there() -> None:
-            beat()
-            lock.beat()
-
+    with cache.lock(sources.key, beat) as still_there:
         stack = find_stack(cache, sources.key)
         if stack is None:
             images = yield from sources.read()
@@ -93,19 +89,16 @@ def layer_images(stack: Prepared, part: str) -> list:
 def _taken(peelings: dict, images: Images, i: int, feather: float, beat: Callable) -> Prepared:
     """The next layer, and what lies behind it, taken off here. Throws RecipeError."""
 
-    def still_there(phase: str, share: float) -> bool:
-        beat()
-        return True
-
+    progress = as_progress(beat)
     arrays, facts = {}, {}
     left = peelings["colour"].left
-    matte = None if images.mattes[i] is None else images.mattes[i].on(left, still_there)
+    matte = None if images.mattes[i] is None else images.mattes[i].on(left, progress)
     for part, peeling in peelings.items():
         if matte is None:
             layer, behind = peeling.rest(), None
         else:
-            fill = _fill_of(images.fills[i], part, left, still_there)
-            layer, behind = _take(peeling, i, matte, fill, feather, still_there)
+            fill = _fill_of(images.fills[i], part, left, progress)
+            layer, behind = _take(peeling, i, matte, fill, feather, progress)
         facts[part] = list(layer.box)
         if min(layer.box[2:]) > 0:
             arrays[part] = layer.pixels
