@@ -103,18 +103,19 @@ class Residuals {
   void make_block(int start, int end) {
     const int count = end - start;
     std::vector<Rgb> made(count);
+    std::vector<Plane> greys(count);
     std::vector<Energies> energies(count);
     parallel_rows(count, 1, [&](int first, int last) {
       for (int k = first; k < last; ++k) {
         const Rgb here = frames_.read(start + k);
         made[k] = here - sample_differences(frames_.read(start + k - 1), back_, repeated);
-        energies[k] = energies_of(luma(here), luma(made[k]));
+        greys[k] = luma(made[k]);
+        energies[k] = energies_of(luma(here), greys[k]);
       }
     });
     for (int k = 0; k < count; ++k) {
       energies_.add(energies[k]);
-      const Plane grey = luma(made[k]);
-      square_ += grey.mul(grey);
+      square_ += greys[k].mul(greys[k]);
     }
     parallel_rows(count, 1, [&](int first, int last) {
       for (int k = first; k < last; ++k) frames_.write(start + k, made[k]);

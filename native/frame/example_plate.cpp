@@ -21,11 +21,6 @@ constexpr double usual_cell = 55;       // px of the picture
 constexpr double around_of_cell = 0.6;  // sigma over which contrast is taken, of a cell
 constexpr int smallest_cell = 8;        // px of the plate
 
-Rgba opaque(const Rgba& pixels) {
-  const bool all = std::all_of(pixels.begin(), pixels.end(), [](const cv::Vec4f& colour) { return colour[3] == 1; });
-  return all ? pixels : extend_colours(pixels);
-}
-
 Field mean_of(const std::vector<Field>& fields) {
   Field mean(fields.front().size(), cv::Vec2f());
   for (const Field& field : fields) mean += field;
@@ -61,7 +56,7 @@ ExamplePlate::ExamplePlate(const Plate& plate, const ExampleSetup& setup, const 
       parameters_(setup.look),
       moving_(setup.moving),
       clip_pixel_(setup.transfer.clip_scale * plate.scale),
-      texture_(opaque(plate.source.pixels())),
+      texture_(extend_colours(plate.source.pixels())),
       velocities_(scaled_fields(setup.velocities, plate)),
       mean_velocity_(mean_of(velocities_)),
       freeze_(scaled_plane(setup.freeze, plate)),

@@ -32,16 +32,12 @@ float mirrored_inside(float at, int size) {
 
 float brightness(const cv::Vec4f& colour) { return colour[0] + colour[1] + colour[2]; }
 
-bool is_opaque(const Rgba& pixels) {
-  return std::all_of(pixels.begin(), pixels.end(), [](const cv::Vec4f& colour) { return colour[3] == 1; });
-}
-
 }  // namespace
 
 FlowingPlate::FlowingPlate(const Plate& plate, std::shared_ptr<const FlowPaths> paths, bool lively)
     : plate_(plate), paths_(std::move(paths)), lively_(lively) {
   if (paths_->still()) return;
-  const Rgba pixels = plate.source.pixels(), texture = is_opaque(pixels) ? pixels : extend_colours(pixels);
+  const Rgba texture = extend_colours(plate.source.pixels());
   texture_ = Source(texture);
   if (!lively) return;
   make_means(texture);

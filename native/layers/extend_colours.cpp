@@ -22,6 +22,7 @@ cv::Vec4f straight(const cv::Vec4f& colour) {
 
 Rgba extend_colours(const Rgba& layer) {
   check::not_empty("layer", layer);
+  if (std::all_of(layer.begin(), layer.end(), [](const cv::Vec4f& colour) { return colour[3] == 1; })) return layer.clone();
   float most = 0;
   for (const cv::Vec4f& colour : layer) most = std::max(most, colour[3]);
   if (most <= 0) throw BadInput("layer: covers nothing (there is no colour to go on with)");
