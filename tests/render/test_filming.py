@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_ready import made_ready, picture, renderer, same
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 from stillwater import Live, RecipeError, load
@@ -89,30 +90,6 @@ def looping(last=24, **fields):
         film(**fields)(recipe)
 
     return change
-
-
-def made_ready(path, **order):
-    """The renderer, and the events on the way."""
-    job = Job(load(path), Order(**order))
-    list(job.check_files())
-    steps, events = job.ready(SimpleNamespace(beat=lambda: None)), []
-    while True:
-        try:
-            events.append(next(steps))
-        except StopIteration as done:
-            return done.value, events
-
-
-def renderer(path, **order):
-    return made_ready(path, **order)[0]
-
-
-def same(a, b):
-    return all(np.array_equal(x, y) for x, y in ((a.combined, b.combined), (a.flow, b.flow), (a.matte, b.matte)))
-
-
-def picture(path):
-    return engine.read_picture(str(path.parent / "picture.png")).image
 
 
 def test_the_pond_changes_and_nothing_else(brook):

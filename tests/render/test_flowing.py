@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_ready import picture, renderer, same
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 from stillwater import Live, RecipeError, load
@@ -59,25 +60,6 @@ def brook(tmp_path):
 
 def flow(**fields):
     return lambda recipe: recipe["layers"][0]["motion"].update(fields)
-
-
-def renderer(path, **order):
-    job = Job(load(path), Order(**order))
-    list(job.check_files())
-    steps = job.ready(SimpleNamespace(beat=lambda: None))
-    while True:
-        try:
-            next(steps)
-        except StopIteration as done:
-            return done.value
-
-
-def same(a, b):
-    return all(np.array_equal(x, y) for x, y in ((a.combined, b.combined), (a.flow, b.flow), (a.matte, b.matte)))
-
-
-def picture(path):
-    return engine.read_picture(str(path.parent / "picture.png")).image
 
 
 def inner(by=4):
