@@ -1,7 +1,6 @@
 """`info`: what will be computed, what is there, and how much memory it takes."""
 
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -58,13 +57,17 @@ def test_what_is_wrong_is_said(scene, tmp_path, command):
     assert done.stderr == f"stillwater: {path}: layers[2].matte.file: {tmp_path}/tree.png: there is no such file\n"
 
 
+PEAK = """import resource, subprocess, sys
+subprocess.run(sys.argv[1:], stdin=subprocess.DEVNULL, check=True)
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"""
+
+
 def peak_bytes(*arguments):
-    """Of a command line that runs to its end."""
-    process = subprocess.Popen([sys.executable, "-m", "stillwater", *map(str, arguments)], stdin=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    assert process.returncode == 0
-    return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+    """Of a command line that runs to its end, started by a small process: a child's peak is at least its parent's size."""
+    command = [sys.executable, "-S", "-c", PEAK, sys.executable, "-m", "stillwater", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, done.stderr
+    return int(done.stdout) * (1 if sys.platform == "darwin" else 1024)
 
 
 WIDTH, HEIGHT = 1600, 1000

@@ -14,7 +14,8 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# install_packages NAME...: only what is missing, so that a second run asks nobody.
+# install_packages NAME...: only what is missing, so that a second run asks nobody. Two rooms that run side by side take
+# turns at it.
 install_packages() {
   local missing=()
   local name
@@ -25,7 +26,8 @@ install_packages() {
   command -v apt-get >/dev/null ||
     { echo "apt-get is not here; these, or what they are called here, must be: ${missing[*]}" >&2; return 0; }
   echo "installing ${missing[*]}"
-  as_root apt-get update -qq
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+  as_root env DEBIAN_FRONTEND=noninteractive flock --timeout 900 /var/lib/apt bash -c '
+    apt-get update -qq
+    apt-get install -y -qq --no-install-recommends "$@"' apt "${missing[@]}" \
     >"$build/apt.log" 2>&1 || { tail -20 "$build/apt.log" >&2; return 1; }
 }
