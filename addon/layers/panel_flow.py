@@ -8,6 +8,7 @@ def draw(layout, flow, drawn: set[str]) -> None:
     sidebar.draw(layout, flow, "speed", "period")
     _draw_next(layout, flow)
     _draw_proposal(layout, flow, drawn)
+    _draw_outline(layout, flow)
     if details := sidebar.fold(layout, "stillwater_flow", "Details"):
         sidebar.draw(details, flow, "refine_amount", "refine_width")
 
@@ -23,6 +24,7 @@ def draw_example(layout, motion, drawn: set[str]) -> None:
     sidebar.draw(layout, example, "clip_scale", "speed", "life")
     _draw_next(layout, motion.flow).operator("stillwater.pick_speed", icon="EYEDROPPER")
     _draw_proposal(layout, motion.flow, drawn)
+    _draw_outline(layout, example)
     if clip := sidebar.fold(layout, "stillwater_clip", "Clip"):
         sidebar.draw(clip, example, "clip_fps", "use_clip_frames")
         if example.use_clip_frames:
@@ -42,6 +44,13 @@ def _draw_next(layout, flow):
     column.label(text="Next Strokes")
     sidebar.draw(column, flow, "stroke_speed", "stroke_local", "stroke_alpha")
     return column
+
+
+def _draw_outline(layout, fluid) -> None:
+    column = layout.column(align=True)
+    sidebar.draw(column, fluid, "outline_moving")
+    if fluid.outline_moving:
+        sidebar.draw(column, fluid, "outline_persistence")
 
 
 def _draw_proposal(layout, flow, drawn: set[str]) -> None:

@@ -55,14 +55,15 @@ def refine_amount():
 def outline_moving():
     """Whether the layer's outline goes along."""
     return BoolProperty(
-        name="Moving Outline", description="The layer's outline moves with the flow", default=False, options=set()
+        name="Moving Outline", description="The layer's outline moves with the flow, as that of fire and smoke; what lies behind should be filled or painted",
+        default=False, options=set(),
     )
 
 
 def outline_persistence():
     """How long it keeps its shape."""
     return FloatProperty(
-        name="Persistence", description="Share of the outline that lasts from frame to frame (0..1)", subtype="FACTOR",
+        name="Persistence", description="Share of the outline that lasts from frame to frame (0..1); where the animation loops, at most 0.98", subtype="FACTOR",
         default=0.9, min=0, max=1, options=set(),
     )
 

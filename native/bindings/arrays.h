@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,14 @@ py::array_t<typename cv::DataType<Pixel>::channel_type> as_array(const cv::Mat_<
   std::vector<py::ssize_t> shape{kept->rows, kept->cols};
   if (channels > 1) shape.push_back(channels);
   return py::array_t<Number>(shape, reinterpret_cast<const Number*>(kept->data), owner);
+}
+
+/// Keeps the array's memory; may be let go by any thread.
+inline std::shared_ptr<const void> kept_alive(const py::array& array) {
+  return {new py::array(array), [](py::array* kept) {
+            const py::gil_scoped_acquire gil;
+            delete kept;
+          }};
 }
 
 }  // namespace stillwater

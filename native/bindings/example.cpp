@@ -119,12 +119,7 @@ ExampleSetup example_setup(const py::array& residuals, const FloatArray& patches
                            const std::vector<FloatArray>& velocities,
                            const std::optional<FloatArray>& freeze, int life, bool endless, int period,
                            const LookParameters& look) {
-  auto* kept = new py::array(residuals);
-  const std::shared_ptr<const void> memory(kept, [](py::array* array) {
-    const py::gil_scoped_acquire gil;
-    delete array;
-  });
-  ExampleSetup setup{as_half_frames(residuals, "residuals"), memory, as_patches(patches), strokes, transfer, reach, moving, {}, {}, {}, look};
+  ExampleSetup setup{as_half_frames(residuals, "residuals"), kept_alive(residuals), as_patches(patches), strokes, transfer, reach, moving, {}, {}, {}, look};
   for (const FloatArray& velocity : velocities) setup.velocities.push_back(as_image<cv::Vec2f>(velocity, "velocities").clone());
   if (freeze) setup.freeze = as_image<float>(*freeze, "freeze").clone();
   setup.carried.life = life;

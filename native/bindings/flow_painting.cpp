@@ -5,6 +5,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/rooms.h"
+#include "flow/moving_outline.h"
 #include "flow/obstacles.h"
 #include "flow/paint_flow.h"
 #include "flow/propose_flow.h"
@@ -158,6 +159,19 @@ void bind_flow_painting(py::module_& module) {
            },
            py::arg("size"))
       .def_property_readonly("centres", [](const RadialInterpolation& interpolation) { return interpolation.centres().size(); });
+  module.def(
+      "moved_outline",
+      [](const FloatArray& outline, const FloatArray& matte, const FloatArray& motion, double persistence) {
+        const Plane b = as_image<float>(outline, "outline"), alpha = as_image<float>(matte, "matte");
+        const Field moved = as_image<cv::Vec2f>(motion, "motion");
+        Plane next;
+        {
+          const NoGil released;
+          next = moved_outline(b, alpha, moved, persistence);
+        }
+        return as_array(next);
+      },
+      py::arg("outline"), py::arg("matte"), py::arg("motion"), py::arg("persistence"));
   module.def("wall_along", [](const FloatArray& matte) { return as_array(wall_along(as_image<float>(matte, "bound"))); },
              py::arg("matte"));
   module.def("obstacle_reach", [](std::array<int, 2> size) { return obstacle_reach({size[0], size[1]}); }, py::arg("size"));

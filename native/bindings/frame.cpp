@@ -17,6 +17,7 @@ using Size = std::pair<int, int>;
 using Axes = std::pair<bool, bool>;
 using Plates = std::shared_ptr<LayerPlates>;  // pybind11 keeps no pointer to const
 using ExactArray = py::array_t<float, py::array::c_style>;
+using ByteArray = py::array_t<unsigned char, py::array::c_style>;
 
 LayerSetup layer_setup(const std::variant<LayerImage, Plates>& image, const MotionNumbers& motion, int water,
                        int follows, bool mirror, bool visible, Axes endless) {
@@ -53,21 +54,35 @@ Frame render(const FrameRenderer& renderer, const Moment& now, const Moment& aft
 
 using Endlesses = std::vector<std::pair<FloatArray, FloatArray>>;  // pixels and mean, of colours and of alpha
 
+// Of arrays of moments x height x width: views, which keep them.
+Outlines outlines_of(const std::vector<ByteArray>& arrays) {
+  Outlines outlines;
+  for (const ByteArray& array : arrays) {
+    if (array.ndim() != 3) throw BadInput("outlines: not arrays of moments x height x width");
+    outlines.memory.push_back(kept_alive(array));
+    for (py::ssize_t i = 0; i < array.shape(0); ++i)
+      outlines.coverage.emplace_back(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(2)),
+                                     const_cast<unsigned char*>(array.data(i, 0, 0)));
+  }
+  return outlines;
+}
+
 Plates plates_of(const LayerImage& colour, const std::optional<LayerImage>& alpha, Size size, double scale,
                  std::optional<Axes> drifting, const Endlesses& made, const std::vector<FloatArray>& flow, double longest,
-                 const ExampleSetup* example, const ExampleLook* look) {
+                 const ExampleSetup* example, const ExampleLook* look, const std::vector<ByteArray>& outlines) {
   std::vector<EndlessPixels> before;
   for (const auto& [pixels, mean] : made)
     before.push_back({as_image<cv::Vec4f>(pixels, "endless"), as_image<cv::Vec4f>(mean, "endless")});
   FlowFields fields{{}, longest};
   for (const FloatArray& field : flow) fields.velocities.push_back(as_image<cv::Vec2f>(field, "flow"));
+  Outlines followed = outlines_of(outlines);
   const py::gil_scoped_release release;
   std::optional<Endless> endless;
   if (drifting) endless = Endless{drifting->first, drifting->second};
   return std::const_pointer_cast<LayerPlates>(
       make_plates(colour, alpha.value_or(LayerImage()), {size.first, size.second}, scale, endless,
                   {before.empty() ? nullptr : &before[0], before.size() < 2 ? nullptr : &before[1]}, fields,
-                  {example, look}));
+                  {example, look}, std::move(followed)));
 }
 
 ExampleLook look_of(const LayerPlates& plates, const Progress::Listener& progress) {
@@ -117,7 +132,8 @@ void bind_frame(py::module_& module) {
   py::class_<LayerPlates, Plates>(module, "LayerPlates", "A layer ready for any moment.");
   module.def("make_plates", &plates_of, py::arg("colour"), py::arg("alpha"), py::arg("size"), py::arg("scale"),
              py::arg("drifting"), py::arg("endless") = Endlesses(), py::arg("flow") = std::vector<FloatArray>(),
-             py::arg("longest") = 0.0, py::arg("example") = nullptr, py::arg("look") = nullptr);
+             py::arg("longest") = 0.0, py::arg("example") = nullptr, py::arg("look") = nullptr,
+             py::arg("outlines") = std::vector<ByteArray>());
   module.def("make_look", &look_of, py::arg("plates"), py::arg("progress") = Progress::Listener());
   module.def(
       "make_endless",
@@ -136,7 +152,8 @@ void bind_frame(py::module_& module) {
            py::arg("follows") = -1, py::arg("mirror") = false, py::arg("visible") = true,
            py::arg("endless") = std::pair(true, true));
   py::class_<LayerState>(module, "LayerState")
-      .def(py::init<double, MotionNumbers>(), py::arg("opacity") = 1.0, py::arg("motion") = MotionNumbers());
+      .def(py::init<double, MotionNumbers, int>(), py::arg("opacity") = 1.0, py::arg("motion") = MotionNumbers(),
+           py::arg("outline") = 0);
   py::class_<Frame>(module, "Frame")
       .def_property_readonly("combined", [](const Frame& frame) { return as_array(frame.combined); })
       .def_property_readonly("flow", [](const Frame& frame) { return as_array(frame.flow); })

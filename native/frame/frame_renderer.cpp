@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "frame/outlined_layer.h"
 #include "picture/colour.h"
 
 namespace stillwater {
@@ -24,6 +25,11 @@ cv::Rect box_of(const LayerSetup& layer) { return layer.plates ? layer.plates->b
 
 // Sampling a grey picture overshoots.
 void take_alpha(cv::Vec4f& colour, const cv::Vec4f& grey) { colour[3] = std::clamp(grey[0], 0.0f, 1.0f); }
+
+int check_outline(const LayerPlates& plates, int outline) {
+  check::in_range("outline", outline, 0, static_cast<double>(plates.outlines.coverage.size()) - 1);
+  return outline;
+}
 
 void take_alpha(Rgba& colour, const Rgba& alpha) {
   auto from = alpha.begin();
@@ -106,6 +112,9 @@ FrameRenderer::LayerMotions FrameRenderer::motions_of(const FrameNumbers& now, c
       motions.push_back(fade && placed[i].second_share > 0 ? fade->at(plate, placed[i], travel[i])
                                                            : displaced_layer(plate, placed[i], travel[i]));
     }
+    if (plates.outlines.empty()) continue;
+    const Bytes& outline = plates.outlines.coverage[check_outline(plates, now.layers[i].outline)];
+    motions.back() = std::make_unique<OutlinedLayer>(std::move(motions.back()), plates.colour, outline);
   }
   return motions;
 }

@@ -38,6 +38,7 @@ struct PictureSetup {
 struct LayerState {
   double opacity = 1;
   MotionNumbers motion;
+  int outline = 0;  ///< which of its outlines, of a layer that has some
 };
 
 /// All numbers of one moment.

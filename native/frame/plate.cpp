@@ -123,7 +123,7 @@ EndlessPixels make_endless(const LayerImage& layer, cv::Size picture, double out
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
                                                double output_scale, std::optional<Endless> drifting,
                                                MadeBefore before, const FlowFields& flow,
-                                               const ExampleFilm& example) {
+                                               const ExampleFilm& example, Outlines outlines) {
   check_box("colour", colour, picture);
   check_box("alpha", alpha, picture);
   auto plates = std::make_shared<LayerPlates>();
@@ -155,6 +155,10 @@ std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const L
   }
   if (example.setup && !colour.box.empty())
     plates->colour_example = std::make_unique<ExamplePlate>(plates->colour, *example.setup, example.look);
+  for (const Bytes& outline : outlines.coverage)
+    if (outline.size() != cv::Size(plates->colour.source.width(), plates->colour.source.height()))
+      throw BadInput("outlines: made for another layer or scale");
+  plates->outlines = std::move(outlines);
   return plates;
 }
 

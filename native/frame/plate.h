@@ -9,6 +9,7 @@
 #include "frame/displaced_layer.h"
 #include "frame/example_plate.h"
 #include "frame/flowing_plate.h"
+#include "frame/outlines.h"
 #include "layers/layer_image.h"
 
 namespace stillwater {
@@ -43,6 +44,7 @@ struct LayerPlates {
   std::unique_ptr<const CrossFade> colour_fade, alpha_fade;  ///< of a layer that drifts; they belong to these plates
   std::unique_ptr<const FlowingPlate> colour_flow, alpha_flow;  ///< of a layer that flows, likewise
   std::unique_ptr<const ExamplePlate> colour_example;  ///< of a layer that flows like a clip; its alpha stands still
+  Outlines outlines;                ///< of a layer whose outline moves: then its plates are opaque
 };
 
 /// What make_endless() gave for a layer that drifts, where that was called before.
@@ -63,12 +65,12 @@ struct ExampleFilm {
   const ExampleLook* look = nullptr;  ///< made before, by ExamplePlate::make_look() of plates without one
 };
 
-/// Throws BadInput where a box does not fit its pixels or the picture, a field not the box, or what was made before not the
-/// layer.
+/// Throws BadInput where a box does not fit its pixels or the picture, a field not the box, or what was made before, or an
+/// outline, not the layer.
 std::shared_ptr<const LayerPlates> make_plates(const LayerImage& colour, const LayerImage& alpha, cv::Size picture,
                                                double output_scale, std::optional<Endless> drifting,
                                                MadeBefore before = {}, const FlowFields& flow = {},
-                                               const ExampleFilm& example = {});
+                                               const ExampleFilm& example = {}, Outlines outlines = {});
 
 /// Length of one period of an endless layer's plate along x and y, in picture pixels.
 Point plate_period(cv::Size picture, double output_scale);

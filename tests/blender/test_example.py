@@ -129,11 +129,11 @@ def test_its_panel_shows_every_number_and_what_to_press(picture):
     room("layers.panel_flow").draw_example(shown, moved, set())
     assert "stillwater.choose_clip" in shown.operators and "clip" not in shown.properties
     moved.example.clip = "/clip.mp4"
-    moved.example.use_grid = moved.example.use_clip_frames = True
+    moved.example.use_grid = moved.example.use_clip_frames = moved.example.outline_moving = True
     shown = Recorder()
     room("layers.panel_flow").draw_example(shown, moved, set())
-    hidden, brush = {"outline_moving", "outline_persistence"}, {"stroke_speed", "stroke_local", "stroke_alpha", "proposal"}
-    assert set(shown.properties) == set(type(moved.example).__annotations__) - hidden | brush
+    brush = {"stroke_speed", "stroke_local", "stroke_alpha", "proposal"}
+    assert set(shown.properties) == set(type(moved.example).__annotations__) | brush
     assert {"stillwater.show_clip", "stillwater.pick_speed", "stillwater.propose_flow"} <= set(shown.operators)
 
 

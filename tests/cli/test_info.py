@@ -101,6 +101,7 @@ def discs(x, y, layers):
         (stripes, 2, {"type": "drift", "velocity": [3, 0]}, 1),
         (stripes, 3, {"type": "still"}, 2),
         (stripes, 2, FLOW, 1),
+        (stripes, 2, {**FLOW, "outline": {"moving": True}}, 1),
         pytest.param(stripes, 2, FILM, 1, marks=pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is not installed")),
     ],
 )

@@ -132,12 +132,8 @@ SENTENCES = [
      'layers[4].motion.strokes: none at frame 7 says where the layer flows (kind "orientation" or "both", alpha above 0)'),
     ((*SKY, "motion"), {**FLOW, "period": 0}, "layers[4].motion.period: 0 is not above 0 (frames)"),
     # what has no engine yet
-    ((*SKY, "motion"), {**FLOW, "outline": {"moving": True}},
-     "layers[4].motion.outline.moving: true has no engine yet (a fluid's outline stands still: false)"),
     ((*SKY, "motion"), {"type": "example", "clip": "c.mp4"},
      "layers[4].motion.strokes: none; where does the layer flow? (at least one is needed)"),
-    ((*SKY, "motion"), {"type": "example", "clip": "c.mp4", "strokes": [{"points": [[1, 1], [9, 9]]}], "outline": {"moving": True}},
-     "layers[4].motion.outline.moving: true has no engine yet (a fluid's outline stands still: false)"),
     ((*SKY, "motion"), {"type": "library", "library": "l"},
      'layers[4].motion.type: "library" has no engine yet (these have: still, sway, ripple, bob, drift, flow, example)'),
     ((*SKY, "motion"), {"type": "keyframes", "keys": [{"frame": 1, "file": "k.png"}], "guide": {"strokes": []}},
@@ -167,8 +163,8 @@ def test_a_flow_neither_follows_nor_is_followed():
     with pytest.raises(RecipeError) as raised:
         parse(recipe)
     assert list(raised.value.problems[:2]) == [
-        'layers[0].follows.layer: "cloud" is not a layer that can be followed (it flows: its outline stands still)',
-        "layers[2].follows: a layer that flows follows no other (its outline stands still)",
+        'layers[0].follows.layer: "cloud" is not a layer that can be followed (it flows)',
+        "layers[2].follows: a layer that flows follows no other",
     ]
 
 

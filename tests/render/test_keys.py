@@ -130,6 +130,7 @@ TABLE = [
     (f"{BROOK}.motion.period", 50, ALL),
     (f"{BROOK}.motion.freeze", [{"points": [[1, 1]]}], ALL),
     (f"{BROOK}.motion.outline", {"persistence": 0.5}, NONE),  # it stands still, whatever it would do
+    (f"{BROOK}.motion.outline", {"moving": True}, ALL),
     (f"{FIRE}.motion.clip", "other.mp4", ALL),
     (f"{FIRE}.motion.clip_frames", [1, 20], ALL),
     (f"{FIRE}.motion.strokes", [{"points": [[9, 9], [1, 1]]}], ALL),
@@ -137,6 +138,7 @@ TABLE = [
     (f"{FIRE}.motion.speed", 1.1, ALL),
     (f"{FIRE}.motion.freeze", [{"points": [[1, 1]]}], ALL),
     (f"{FIRE}.motion.outline", {"persistence": 0.5}, NONE),
+    (f"{FIRE}.motion.outline", {"moving": True}, ALL),
     (f"{FIRE}.motion.life", 12, ALL),
     (f"{FIRE}.motion.shutter", 0.3, ALL),
     (f"{FIRE}.motion.average_blur", 4, ALL),

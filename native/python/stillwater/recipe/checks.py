@@ -11,6 +11,7 @@ from .picture import Layer, Recipe
 from .stochastic import Bob, Drift, Ripple, Sway
 
 SHORTEST = 1e-6  # px: two places closer than this are one
+MOST_PERSISTENT = 0.98  # of an outline in a loop
 
 
 def problems_of(recipe: Recipe) -> list[str]:
@@ -69,14 +70,21 @@ def _layer(recipe: Recipe, i: int, layer: Layer) -> Iterator[str]:
             yield f"{place}.motion: velocity and wind are both given (only one of them can hold)"
         case Flow() | Example() as fluid:
             yield from _directions(fluid, f"{place}.motion.strokes")
+            yield from _comes_round(recipe, fluid, f"{place}.motion.outline.persistence")
 
 
 def _no_flow_in_it(recipe: Recipe, place: str, layer: Layer) -> Iterator[str]:
     if isinstance(layer.motion, Flow | Example):
-        yield f"{place}.follows: a layer that flows follows no other (its outline stands still)"
+        yield f"{place}.follows: a layer that flows follows no other"
     led = next((other for other in recipe.layers if other.name == layer.follows.layer), None)
     if led is not None and isinstance(led.motion, Flow | Example):
-        yield f'{place}.follows.layer: "{led.name}" is not a layer that can be followed (it flows: its outline stands still)'
+        yield f'{place}.follows.layer: "{led.name}" is not a layer that can be followed (it flows)'
+
+
+def _comes_round(recipe: Recipe, fluid: Flow | Example, place: str) -> Iterator[str]:
+    outline = fluid.outline
+    if recipe.loop and outline is not None and outline.moving and outline.persistence > MOST_PERSISTENT:
+        yield f"{place}: {outline.persistence:g} is not between 0 and {MOST_PERSISTENT:g} (the recipe loops; an outline that lasts longer does not come back)"
 
 
 def _directions(flow: Flow | Example, place: str) -> Iterator[str]:

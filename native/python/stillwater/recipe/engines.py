@@ -14,5 +14,3 @@ def without_engine(layer: Layer, place: str) -> Iterator[str]:
     if not isinstance(layer.motion, MOTIONS):
         ready = ", ".join(kind.__struct_config__.tag for kind in MOTIONS)
         yield f'{place}.motion.type: "{layer.motion.__struct_config__.tag}" has no engine yet (these have: {ready})'
-    elif isinstance(layer.motion, Flow | Example) and layer.motion.outline is not None and layer.motion.outline.moving:
-        yield f"{place}.motion.outline.moving: true has no engine yet (a fluid's outline stands still: false)"

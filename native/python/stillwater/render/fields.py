@@ -10,9 +10,11 @@ from ..recipe.strokes import FlowStroke, Stroke
 from .flowing import Painting
 
 
-def make_field(layer, size: tuple[int, int], painting: Painting, place: str, beat: Callable[[], None]) -> np.ndarray:
+def make_field(
+    layer, size: tuple[int, int], painting: Painting, place: str, bounded: bool, beat: Callable[[], None]
+) -> np.ndarray:
     """The flow that a painting says for a layer (engine.LayerImage of a picture of `size`): float32, box height x box width
-    x 2, px/frame. Throws RecipeError; `place` stands in sentences."""
+    x 2, px/frame. `bounded`: it stays within the layer. Throws RecipeError; `place` stands in sentences."""
     x, y, width, height = layer.box
     inside = slice(y, y + height), slice(x, x + width)
     pixels = np.asarray(layer.pixels)
@@ -24,7 +26,7 @@ def make_field(layer, size: tuple[int, int], painting: Painting, place: str, bea
         freeze = _freeze(size, painting.freeze, place)
         beat()
         strokes = [_stroke(stroke) for stroke in painting.strokes]
-        painted = engine.paint_flow(strokes, size, None if (matte == 1).all() else matte, freeze)
+        painted = engine.paint_flow(strokes, size, matte if bounded and (matte < 1).any() else None, freeze)
         beat()
         return engine.refine_flow(painted, picture, painting.refine.width, painting.refine.amount)[inside].copy()
     except engine.BadInput as error:

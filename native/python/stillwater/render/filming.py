@@ -1,6 +1,7 @@
 """Layers that flow like a clip: what of their recipe each frame reads, and how the clip's time goes by."""
 
 import msgspec
+import numpy as np
 
 from ..recipe.animation import Loop, Track
 from ..recipe.fluids import Example
@@ -28,7 +29,7 @@ class ExampleTrack:
         self._fields = PaintedFields(example, loop)
         self.paintings = self._fields.paintings
         self.over_loop = self._speed.over_loop() if loop else None
-        self.moves = bool(self._speed.values.any())
+        self.fastest = float(np.abs(self._speed.values).max())
 
     def at(self, frame: int) -> ExampleNow:
         """The numbers of one frame."""

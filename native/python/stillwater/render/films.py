@@ -16,7 +16,8 @@ from ..recipe.fluids import Example
 from .cache import Prepared
 from . import clips
 from .filming import ExampleTrack, Pace
-from .keys import ENGINES, hashed, look_facts
+from .hashing import hashed
+from .keys import ENGINES, look_facts
 from .lock import as_progress
 
 MEMORY = 1.2e9  # bytes that a clip may need while it is taken apart
@@ -82,14 +83,15 @@ def transfer(fields: list[np.ndarray], clip: Prepared, example: Example, place: 
 
 
 def setup(
-    track: ExampleTrack, fields: list[np.ndarray], clip: Prepared, patches: Prepared, box: tuple, freeze, fps: float
+    track: ExampleTrack, fields: list[np.ndarray], clip: Prepared, patches: Prepared, box: tuple, freeze, fps: float, matched: bool
 ) -> engine.ExampleSetup:
-    """What the engine makes the film of. `box`: the layer's, in the picture; `freeze`: of the box, or None."""
+    """What the engine makes the film of. `box`: the layer's, in the picture; `freeze`: of the box, or None; `matched`: its
+    texture to the picture's."""
     example, pace = track.example, pace_of(track, clip, fps)
     grid = example.grid or (0, 0)
     look = engine.LookParameters(
         shutter=example.shutter, fps=fps, average_blur=example.average_blur, grid=tuple(grid), repetitions=example.repetitions,
-        matching=example.matching, stylize=example.stylize,
+        matching=example.matching, stylize=example.stylize if matched else 0.0,
     )  # fmt: skip
     strokes = [
         engine.CloneStroke(stroke.source, [(x - box[0], y - box[1]) for x, y in stroke.target], stroke.width, stroke.alpha)

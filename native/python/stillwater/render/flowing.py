@@ -1,6 +1,5 @@
 """Layers that flow for ever: what of their recipe each frame reads."""
 
-import hashlib
 import math
 
 import msgspec
@@ -9,6 +8,7 @@ import numpy as np
 from ..recipe.animation import Loop, Track
 from ..recipe.fluids import Example, Flow
 from ..recipe.strokes import FlowStroke, Refine, Stroke
+from .hashing import hashed
 
 MOST_WAYS = 256  # numbers that say a speed that changes, over one period
 
@@ -22,7 +22,7 @@ class Painting(msgspec.Struct, frozen=True):
 
     @property
     def digest(self) -> str:
-        return hashlib.blake2b(msgspec.json.encode(self, order="deterministic"), digest_size=16).hexdigest()
+        return hashed(self)
 
 
 class FlowNow(msgspec.Struct, frozen=True, tag="flow"):
@@ -78,7 +78,8 @@ class FlowTrack:
         self._period = loop.period / self._turns if loop else flow.period
         self._fields = PaintedFields(flow, loop)
         self.paintings = self._fields.paintings
-        way = self._period / 2 * float(np.abs(self._speed.values).max())
+        self.fastest = float(np.abs(self._speed.values).max())
+        way = self._period / 2 * self.fastest
         self.longest = 2.0 ** math.ceil(math.log2(way)) if way > 0 else 0.0  # rarely another one where the speed is changed
 
     def at(self, frame: int) -> FlowNow:

@@ -5,15 +5,14 @@ the file, and the version of each engine used. It does not hold the recipe's tex
 range or anything of a layer that is not seen. So a longer range keeps the frames it has.
 """
 
-import hashlib
-
 import msgspec
 
 from ..recipe import Recipe
 from ..recipe.fluids import Example
 from ..recipe.mattes import ExemplarFill, FileFill, FileMatte, LabelMatte, TrimapMatte
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
-from .resolve import Now, Timeline
+from .hashing import hashed
+from .resolve import LayerNow, Now, Timeline
 
 # Raised by who changes what an engine computes: frames and preparations made by another version are made again.
 ENGINES = {
@@ -31,11 +30,6 @@ ENGINES = {
     "appearance": 1,
     "example": 1,
 }
-
-
-def hashed(facts) -> str:
-    """32 hexadecimal digits for anything that JSON can say."""
-    return hashlib.blake2b(msgspec.json.encode(facts, order="deterministic"), digest_size=16).hexdigest()
 
 
 def layer_keys(recipe: Recipe, digests: dict[str, str]) -> list[str]:
@@ -91,7 +85,7 @@ class FrameKeys:
 
     def _read(self, now: Now):
         layers = {
-            str(i): [layer.opacity if self._timeline.recipe.layers[i].visible else None, layer.motion]
+            str(i): [layer.opacity if self._timeline.recipe.layers[i].visible else None, layer.motion, *_outline(layer)]
             for i, layer in enumerate(now.layers)
             if i in self._needed
         }
@@ -123,6 +117,10 @@ class FrameKeys:
         if self._has_waves:
             return recipe.view
         return recipe.view.horizon if mirrors else None
+
+
+def _outline(layer: LayerNow) -> list:
+    return [] if layer.outline is None else [layer.outline]
 
 
 def needed_layers(recipe: Recipe) -> set[int]:

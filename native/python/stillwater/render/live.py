@@ -17,7 +17,8 @@ from .cache import FOLDER, Cache, Prepared
 from .prepare import check_view, digests_of
 from .filming import Pace
 from .ready import Canvas, Way, keys_of, pace_of, ways_of
-from .renderer import frame_renderer, numbers
+from .moments import numbers
+from .renderer import frame_renderer
 from .resolve import Timeline
 
 
@@ -85,7 +86,7 @@ class Live:
         small = preview.reduced(document.recipe, layers.facts["scale"])
         check_view(small, layers.facts["colour"])
         timeline = Timeline(small)
-        ways = ways_of(timeline, digests_of(document, self._cache.known))
+        ways = ways_of(timeline, digests_of(document, self._cache.known), layers.facts["colour"])
         plates = self._plates_for(key, layers, ways, timeline, self._plates if same else {})
         if plates is None:
             return False

@@ -16,6 +16,7 @@ from .clips import FRAME as CLIP_FRAME
 from .clips import fitting, needed_memory
 from .fills import Exemplar
 from .films import MEMORY, clip_key
+from .outlining import SPAN
 from .ready import keys_of, ways_of
 
 PROCESS = 170e6  # Python and the engine's libraries
@@ -103,12 +104,15 @@ def _rendering(job, boxes) -> float:
     shrunk = min(1.0, job.scale) ** 2
     canvas = RGBA * job.sources.size[0] * job.sources.size[1]
     cut, ready, at_work = 0.0, 0.0, canvas if shrunk < 1 else 0.0
-    ways = ways_of(job.timeline, job.sources.digests)
+    ways = ways_of(job.timeline, job.sources.digests, boxes)
     layers = zip(job.recipe.layers, boxes, job.timeline.endless, job.timeline.flows, ways, strict=True)
     for layer, box, endless, flow, way in layers:
         cut += RGBA * _area(box)
         if not layer.visible:
             continue
+        if way.outline is not None:
+            box = (*box[:2], *(min(side + 2 * way.outline.room, most) for side, most in zip(box[2:], job.sources.size, strict=True)))
+            ready += shrunk * _area(box) * min(job.last - job.first + 1, SPAN * len(way.outline.spans))
         width = STRIP * job.sources.size[0] if endless[0] else box[2]
         height = STRIP * job.sources.size[1] if endless[1] else box[3]
         plate = RGBA * shrunk * width * height

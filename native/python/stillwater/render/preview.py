@@ -17,7 +17,8 @@ from ..recipe.stochastic import Bob, Drift, Sway
 from .cache import Cache, Prepared
 from .errors import Failed
 from .events import Event, Preparing, Ready
-from .keys import ENGINES, hashed, stack_key
+from .hashing import hashed
+from .keys import ENGINES, stack_key
 from .loop import frame_size
 from .prepare import Sources, digests_of
 from .ready import Canvas, make_ready, parts_of

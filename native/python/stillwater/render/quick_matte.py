@@ -10,7 +10,7 @@ from ..recipe import Document, RecipeError
 from .cache import Cache, Prepared
 from .errors import Failed
 from .events import Event, QuickMatte
-from .keys import hashed
+from .hashing import hashed
 from .lock import as_progress
 from .mattes import MatteReader, ToSolve, whole
 from .prepare import Sources

@@ -12,7 +12,8 @@ import msgspec
 from .. import _stillwater as engine
 from ..recipe.fluids import Example, Flow
 from ..recipe.stochastic import Bob, Drift, Ripple, Sway
-from .keys import fill_facts, film_facts, hashed, matte_facts, needed_layers
+from .hashing import hashed
+from .keys import fill_facts, film_facts, matte_facts, needed_layers
 from .resolve import Timeline
 
 # part -> digest; "layers": name -> part -> digest; "engines": name -> version
@@ -81,7 +82,8 @@ class Reads:
             motions = [state.motion for state in states]
         seen = [state.opacity for state in states] if layer.visible else None
         film = film_facts(layer.motion, self._digests, self._timeline.recipe) if isinstance(layer.motion, Example) else None
-        motion = _digest([motions, layer.follows, water, self._timeline.endless[i], film])
+        outlines = [state.outline for state in states if state.outline is not None]
+        motion = _digest([motions, layer.follows, water, self._timeline.endless[i], film, *outlines])
         return {"motion": motion, "visibility": _digest(seen)}
 
     def _wind(self, frame: int):

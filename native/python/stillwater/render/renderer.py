@@ -1,16 +1,14 @@
-"""The engine's FrameRenderer for a recipe: layers, motions and moments handed over as its parameter structs."""
+"""The engine's FrameRenderer for a recipe: its layers handed over as parameter structs."""
 
 import numpy as np
 
 from .. import _stillwater as engine
-from ..recipe.stochastic import Bob, Ripple, Still, Sway
+from ..recipe.stochastic import Bob
 from .cache import Prepared
-from .filming import ExampleNow, ExampleTrack, Pace
-from .flowing import FlowNow, FlowTrack
+from .filming import Pace
+from .moments import moment_of, motions_of, numbers, view_of
 from .ready import Canvas, Way, pace_of
-from .resolve import DriftNow, MomentNow, Now, Timeline
-
-_KINDS = {Sway: engine.Sway, Ripple: engine.Ripple, Bob: engine.Bob, DriftNow: engine.Drift}
+from .resolve import Timeline
 
 
 class Renderer:
@@ -41,7 +39,7 @@ def frame_renderer(
     """
     recipe, start = timeline.recipe, timeline.at(1)  # animated fields are replaced at each frame
     place = {layer.name: i for i, layer in enumerate(recipe.layers)}
-    motions = _motions(timeline, start, paces)
+    motions = motions_of(timeline, start, paces)
     layers = [
         engine.Layer(
             image,
@@ -54,48 +52,7 @@ def frame_renderer(
         )
         for image, layer, motion, endless in zip(images, recipe.layers, motions, timeline.endless, strict=True)
     ]
-    view = engine.View(horizon=recipe.view.horizon, fov=recipe.view.fov, height=recipe.view.height)
-    return engine.FrameRenderer(size, scale, view, _moment(start.moment).wind, layers, **alpha)
-
-
-def numbers(timeline: Timeline, frame: int, paces: list[Pace | None]) -> tuple:
-    """What the engine's renderer is told of one frame: its moment, and a state for each layer."""
-    now = timeline.at(frame)
-    layers = zip(now.layers, _motions(timeline, now, paces), strict=True)
-    return _moment(now.moment), [engine.LayerState(layer.opacity, motion) for layer, motion in layers]
-
-
-def _motions(timeline: Timeline, now: Now, paces: list[Pace | None]) -> list:
-    tracks = (flow or film for flow, film in zip(timeline.flows, timeline.films, strict=True))
-    return [_motion(layer.motion, track, pace) for layer, track, pace in zip(now.layers, tracks, paces, strict=True)]
-
-
-def _moment(now: MomentNow):
-    return engine.Moment(**{**_fields(now), "wind": engine.Wind(**_fields(now.wind))})
-
-
-def _motion(motion, track: FlowTrack | ExampleTrack | None, pace: Pace | None):
-    if isinstance(motion, Still):
-        return None
-    if isinstance(motion, FlowNow):
-        field, following = map(list(track.paintings).index, motion.fields)
-        return engine.Flow(
-            cycle=motion.cycle, ways=motion.ways, step=motion.step, field=field, next_field=following, next_share=motion.share
-        )
-    if isinstance(motion, ExampleNow):
-        if not track.moves:
-            return None
-        field, following = map(list(track.paintings).index, motion.fields)
-        moment = pace.moment(motion.way)
-        step = pace.moment(motion.way + motion.step) - moment
-        return engine.Example(moment=moment, step=step, field=field, next_field=following, next_share=motion.share)
-    fields = _fields(motion)
-    fields.pop("water", None)  # which layer, not a number of the motion: engine.Layer has it
-    return _KINDS[type(motion)](**fields)
-
-
-def _fields(part) -> dict:
-    return {name: getattr(part, name) for name in part.__struct_fields__}
+    return engine.FrameRenderer(size, scale, view_of(recipe), moment_of(start.moment).wind, layers, **alpha)
 
 
 def eight_bit(combined: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@ from ..recipe.picture import Layer
 from ..recipe.stochastic import Bob, Drift, Ripple, Still, Sway
 from .filming import ExampleNow, ExampleTrack
 from .flowing import FlowNow, FlowTrack
+from .outlining import OutlineNow, OutlineTrack
 
 
 class WindNow(msgspec.Struct, frozen=True):
@@ -52,6 +53,7 @@ class LayerNow(msgspec.Struct, frozen=True):
 
     opacity: float
     motion: Still | Sway | Ripple | Bob | DriftNow | FlowNow | ExampleNow
+    outline: OutlineNow | None = None
 
 
 class Now(msgspec.Struct, frozen=True):
@@ -76,13 +78,17 @@ class Timeline:
         motions = [layer.motion for layer in recipe.layers]
         self.flows = [FlowTrack(motion, self.loop) if isinstance(motion, Flow) else None for motion in motions]
         self.films = [ExampleTrack(motion, self.loop) if isinstance(motion, Example) else None for motion in motions]
+        self.outlines = [self._outline(i, motion) for i, motion in enumerate(motions)]
         self._motions = [self._motion(i, layer) for i, layer in enumerate(recipe.layers)]
         self.endless = [self._endless(layer) for layer in recipe.layers]
 
     def at(self, frame: int) -> Now:
         """The numbers of one frame."""
-        layers = zip(self._opacities, self._motions, strict=True)
-        return Now(self._moment(frame), tuple(LayerNow(opacity.at(frame), motion(frame)) for opacity, motion in layers))
+        layers = zip(self._opacities, self._motions, self.outlines, strict=True)
+        now = (
+            LayerNow(opacity.at(frame), motion(frame), outline and outline.at(frame)) for opacity, motion, outline in layers
+        )
+        return Now(self._moment(frame), tuple(now))
 
     def way(self, frame: int) -> tuple[float, float, float]:
         """The wind's way since frame 1 (right, away), and to the right in one loop, m/s x frames."""
@@ -105,6 +111,13 @@ class Timeline:
         loop_travel = (self._along.over_loop() / fps, self._away.over_loop() / fps)
         period = self.loop.period if self.loop else 0
         return MomentNow(frame, fps, self.loop.first if self.loop else 1, period, wind, loop_travel)
+
+    def _outline(self, i: int, motion) -> OutlineTrack | None:
+        """The outline of a layer where it moves: what stands still takes none along."""
+        track = self.flows[i] or self.films[i]
+        if track is None or not track.fastest or motion.outline is None or not motion.outline.moving:
+            return None
+        return OutlineTrack(motion.outline, track, self.loop, self.recipe.frames)
 
     def _motion(self, i: int, layer: Layer):
         """The layer's motion as a function of the frame."""
