@@ -48,6 +48,11 @@ def in_viewport(name: str, part: type) -> list[type]:
     return [_panel("VIEW_3D", name, part)]
 
 
+def in_image_editor(part: type) -> list[type]:
+    """A panel of the Image Editor."""
+    return [_panel("IMAGE_EDITOR", "", part)]
+
+
 def _panel(editor: str, name: str, part: type) -> type:
     parent = f"STILLWATER_PT_{editor.lower()}"
     place = {"bl_space_type": editor, **({"bl_parent_id": parent} if name else {})}

@@ -215,12 +215,12 @@ def test_a_clip_that_can_t_be_read_is_told(picture, tmp_path, name, sentence):
 def test_without_a_clip_or_such_a_layer_the_buttons_say_so(opened):
     picture = opened()
     picture.layers[0].motion.example.clip = ""
-    for name in ("show_clip", "pick_speed"):
+    for name in ("show_clip", "pick_speed", "draw_clone_source"):
         with pytest.raises(RuntimeError, match="The layer has no clip yet; press Choose Clip first"):
             getattr(bpy.ops.stillwater, name)()
     assert "Press Choose Clip: a film of such a fluid, from a camera that stands still" in " ".join(panel("Layers").texts)
     picture.layers[0].motion.type = "flow"
-    for name in ("choose_clip", "show_clip", "pick_speed"):
+    for name in ("choose_clip", "show_clip", "pick_speed", "draw_clone_source"):
         with pytest.raises(RuntimeError, match="Select a layer with the motion Example first"):
             getattr(bpy.ops.stillwater, name)()
 
@@ -318,6 +318,53 @@ def test_a_recipe_s_clones_are_drawn_again(extension, opened):
         for end in ("source", "target"):
             np.testing.assert_allclose(pair[end], wanted[end], atol=0.01)
         assert (pair["width"], pair["alpha"]) == pytest.approx((wanted["width"], wanted["alpha"]), abs=0.01)
+
+
+def path(line) -> list[dict]:
+    return [{"name": "", "loc": place, "time": 0.0} for place in line]
+
+
+def test_sources_are_drawn_on_the_clip_without_draw_mode_too(extension, opened):
+    picture = opened(clip_scale=0.5)
+    for line in SOURCES:
+        call("draw_clone_source", path=path(line))
+    stroke(picture, "clone_source", *SOURCES[0])
+    assert bpy.context.mode == "OBJECT"
+    for line in TARGETS:
+        stroke(now(), "clone_target", *line)
+    for pair, source in zip(motion(extension)["transfer"]["strokes"], SOURCES, strict=True):
+        np.testing.assert_allclose(pair["source"], source, atol=0.01)
+    drawn = room("clips.editor").sources(bpy.context.scene, now(), now().layers[0])
+    assert len(drawn) == 3 and np.allclose(drawn[1], SOURCES[1], atol=0.01)
+
+
+@pytest.mark.parametrize("line", [[], [(5, 5)], [(5, 5), (5, 5)]])
+def test_a_source_of_one_point_takes_nothing(opened, line):
+    opened()
+    with pytest.raises(RuntimeError, match="Draw a line on the clip: a single point takes nothing"):
+        bpy.ops.stillwater.draw_clone_source(path=path(line))
+
+
+def test_an_image_editor_of_the_clip_has_its_buttons(opened):
+    picture = opened()
+    (part,) = registered("image_editor")
+    space = SimpleNamespace(image=None)
+    context = SimpleNamespace(scene=bpy.context.scene, space_data=space, region=None, preferences=bpy.context.preferences)
+    assert not part.poll(context)
+    call("show_clip")
+    space.image = clip.plane_of(picture, picture.layers[0].id).data
+    assert part.poll(context)
+
+    def shown() -> Recorder:
+        recorder = Recorder()
+        part.draw(SimpleNamespace(layout=recorder), context)
+        return recorder
+
+    assert shown().operators == ["stillwater.pick_speed", "stillwater.draw_clone_source"]
+    call("draw_clone_source", path=path(SOURCES[0]))
+    assert shown().operators[-1] == "stillwater.delete_strokes" and "A Clone Source has no Clone Target" in " ".join(shown().texts)
+    picture.layers[0].motion.type = "flow"
+    assert not part.poll(context)
 
 
 def test_one_without_the_other_is_told(extension, opened):

@@ -88,6 +88,7 @@ CALLS = {
     "copy_layers": nothing,
     "copy_to_selected": one_of("path", ["motion", "opacity", "motion.sway.amount", "name", "nothing.here"]),
     "delete_strokes": one_of("role", ROLES),
+    "draw_clone_source": one_of("path", [[], [{"name": "", "loc": place, "time": 0.0} for place in ((4, 4), (40, 20))]]),
     "draw_stroke": one_of("role", ROLES),
     "drop_picture": lambda artist: {"filepath": artist.picture_file()},
     "duplicate_layer": nothing,

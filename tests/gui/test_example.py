@@ -98,6 +98,36 @@ def test_what_is_drawn_on_clip_and_picture_is_a_pair(window):
     call(window, "stop_drawing")
 
 
+def test_a_source_is_drawn_on_the_clip_in_an_image_editor(window):
+    area = window.area("OUTLINER")
+    area.type = "IMAGE_EDITOR"
+    yield from window.settle()
+    call(window, "show_clip")
+    area.spaces.active.show_region_ui = False
+    yield from window.settle()
+    region = next(region for region in area.regions if region.type == "WINDOW")
+
+    def seen(x, y):
+        at = region.view2d.view_to_region(x / SIZE[0], 1 - y / SIZE[1], clip=False)
+        return region.x + at[0], region.y + at[1]
+
+    def drawn():
+        return module("clips.editor").sources(bpy.context.scene, picture(), picture().layers[0])
+
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0], area=area, region=region):
+        bpy.ops.image.view_all(fit_view=True)
+        assert bpy.ops.stillwater.draw_clone_source("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield from window.settle()
+    yield from window.drag([seen(*place) for place in TAKEN])
+    yield from window.until(lambda: len(drawn()) == 2, 20, "no source was drawn")
+    for end in (0, -1):
+        assert np.hypot(*np.subtract(drawn()[1][end], TAKEN[end])) < 3, drawn()
+    area.spaces.active.show_region_ui = True
+    yield from window.settle()
+    yield from window.screenshot("64-image-editor")
+    area.type = "OUTLINER"
+
+
 def test_it_plays_like_the_clip(window):
     picture().layers[0].motion.example.life = 6
     yield from window.until(lambda: stage().share is None and not stage().problem and is_live(), 150, lambda: f"not ready: {stage().problem}")
