@@ -26,7 +26,7 @@ def draw_example(layout, motion, drawn: set[str]) -> None:
     _draw_proposal(layout, motion.flow, drawn)
     _draw_outline(layout, example)
     if clip := sidebar.fold(layout, "stillwater_clip", "Clip"):
-        sidebar.draw(clip, example, "clip_fps", "use_clip_frames")
+        sidebar.draw(clip, example, "clip_fps", "clip_steady", "use_clip_frames")
         if example.use_clip_frames:
             sidebar.draw(clip, example, "clip_first", "clip_last")
         sidebar.draw(clip, example, "transfer_patch", "transfer_order", "endless")

@@ -119,6 +119,9 @@ class STILLWATER_PG_example(bpy.types.PropertyGroup):
         name="Clip Rate", description="Frames of the clip in a second; 0 = as its file says [1/s]", default=0, min=0,
         max=1000, soft_max=120, options=set(),
     )
+    clip_steady: BoolProperty(
+        name="Steady", description="The clip's camera shakes: hold it still before its motion is taken", default=False, options=set()
+    )
     clip_scale: FloatProperty(
         name="Clip Scale", description="How large the clip's details become: picture pixels for a pixel of it [px]", default=1, min=0.001, soft_min=0.1, max=100,
         soft_max=4, options=set(),

@@ -18,7 +18,7 @@ ICONS = {"still": "PINNED", "sway": "FORCE_WIND", "ripple": "MOD_OCEAN", "bob": 
 ICONS |= {"drift": "OUTLINER_OB_VOLUME", "flow": "MOD_FLUIDSIM", "example": "FILE_MOVIE"}
 # Of a motion, what belongs to one place of one picture; the rest is its look, which presets hold.
 PLACES = {"armature_root", "armature_tip", "waterline", "water_id", "water", "seed"}
-PLACES |= {"clip", "use_clip_frames", "clip_first", "clip_last", "clip_fps"}
+PLACES |= {"clip", "use_clip_frames", "clip_first", "clip_last", "clip_fps", "clip_steady"}
 FAR = 1e6  # px: as far from the picture as a place may be
 
 

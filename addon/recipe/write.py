@@ -180,7 +180,7 @@ def _example(layer, locate: Locate, drawn: Drawn) -> dict:
     example, usual = layer.motion.example, {"alpha": plain(layer.motion.flow.stroke_alpha)}
     targets = [{**usual, **stroke} for stroke in drawn(layer.id, "clone_target") or ()]
     cloned = clones(drawn(layer.id, "clone_source"), targets)
-    names = ("life", "repetitions", "matching", "endless")
+    names = ("life", "repetitions", "matching", "endless", "clip_steady")
     numbers = ("clip_scale", "shutter", "average_blur", "stylize")
     return {
         **_given("clip", example.clip and locate(example.clip)),

@@ -1,5 +1,7 @@
 #include "picture/clip.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
@@ -7,6 +9,18 @@
 #include "picture/video_stream.h"
 
 namespace stillwater {
+namespace {
+
+double longest_of_usual(const std::vector<double>& times) {
+  std::vector<double> gaps;
+  for (size_t i = 1; i < times.size() && std::isfinite(times[i]); ++i) gaps.push_back(times[i] - times[i - 1]);
+  if (gaps.empty()) return 1;
+  std::sort(gaps.begin(), gaps.end());
+  const double usual = gaps[gaps.size() / 2];
+  return usual > 0 ? gaps.back() / usual : 1;
+}
+
+}  // namespace
 
 struct Clip::State {
   explicit State(const std::string& name) : path(name), stream(name) {}
@@ -16,6 +30,7 @@ struct Clip::State {
   std::string path;
   VideoStream stream;
   int frames = 0;
+  double longest_gap = 1;
   int decoded = 0;  ///< the frame the stream stands at
 };
 
@@ -30,7 +45,9 @@ void Clip::State::decode_up_to(int number) {
 
 Clip::Clip(const std::string& path) : state_(std::make_unique<State>(path)) {
   check::size(path, width(), height());
-  state_->frames = VideoStream(path).count_to_end();
+  const std::vector<double> times = VideoStream(path).times_to_end();
+  state_->frames = static_cast<int>(times.size());
+  state_->longest_gap = longest_of_usual(times);
   if (state_->frames < 1) throw FileError(path + ": has no frames");
 }
 
@@ -40,6 +57,7 @@ Clip& Clip::operator=(Clip&&) noexcept = default;
 
 int Clip::frames() const { return state_->frames; }
 double Clip::fps() const { return state_->stream.fps(); }
+double Clip::longest_gap() const { return state_->longest_gap; }
 int Clip::width() const { return state_->stream.width(); }
 int Clip::height() const { return state_->stream.height(); }
 

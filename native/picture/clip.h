@@ -24,6 +24,10 @@ class Clip {
 
   int frames() const;
   double fps() const;  ///< 0 where the file doesn't say
+
+  /// The longest time from one frame to the next, of the usual (median) one: above 1 where the rate is variable. 1 where
+  /// the file doesn't say.
+  double longest_gap() const;
   int width() const;
   int height() const;
 

@@ -10,7 +10,9 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "core/error.h"
@@ -168,10 +170,17 @@ double VideoStream::fps() const {
   return rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
 }
 
-int VideoStream::count_to_end() {
-  int count = 0;
-  while (state_->next_packet()) count += (state_->packet->flags & AV_PKT_FLAG_DISCARD) == 0;
-  return count;
+std::vector<double> VideoStream::times_to_end() {
+  std::vector<double> times, unknown;
+  while (state_->next_packet()) {
+    const AVPacket& packet = *state_->packet;
+    if (packet.flags & AV_PKT_FLAG_DISCARD) continue;
+    if (packet.pts == AV_NOPTS_VALUE) unknown.push_back(std::numeric_limits<double>::quiet_NaN());
+    else times.push_back(static_cast<double>(packet.pts) * av_q2d(state_->stream->time_base));
+  }
+  std::sort(times.begin(), times.end());
+  times.insert(times.end(), unknown.begin(), unknown.end());
+  return times;
 }
 
 bool VideoStream::advance() {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 
@@ -25,8 +26,9 @@ class VideoStream {
   int height() const;
   double fps() const;  ///< 0 where the file doesn't say
 
-  /// Of a stream that nothing was read from yet: how many frames are stored, found by reading on to the end.
-  int count_to_end();
+  /// Of a stream that nothing was read from yet: when each stored frame is shown, s, in this order; NaN where the file
+  /// doesn't say. Found by reading on to the end.
+  std::vector<double> times_to_end();
 
   /// Decodes the next frame; false at the end. Throws FileError where it can't be decoded.
   bool advance();

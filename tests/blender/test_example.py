@@ -1,4 +1,4 @@
-"""The motion Example: its numbers and presets, its clip in the scene, what is cloned from it, its speed, bake and Live."""
+"""The motion Example: its numbers, its clip in the scene, what is cloned from it, its speed, bake and Live."""
 
 import importlib
 import json
@@ -21,7 +21,7 @@ from pixels import PACKAGE, read_frame, render
 from stillwater.recipe.fluids import Example, Flow, Transfer
 
 room = lambda name: importlib.import_module(f"{PACKAGE}.{name}")  # noqa: E731
-clip, gp_layers, roles, files = (room(name) for name in ("properties.clip", "strokes.gp_layers", "strokes.roles", "layers.preset_files"))
+clip, gp_layers, roles = (room(name) for name in ("properties.clip", "strokes.gp_layers", "strokes.roles"))
 places, pick = room("clips.places"), room("clips.pick")
 SIZE = (96, 64)  # px, of the picture
 ACROSS = [[10, 20], [50, 22], [86, 20]]
@@ -81,7 +81,7 @@ OURS |= {"outline_moving", "outline_persistence", "transfer_patch", "transfer_or
 WHOLE = {
     "type": "example", "clip": "clip.mp4", "clip_frames": [3, 90], "clip_fps": 25, "clip_scale": 1.5, "life": 12, "speed": 0.5,
     "refine": {"width": 20, "amount": 0.75}, "shutter": 0.125, "average_blur": 4, "matching": "laplacian", "grid": [8, 5],
-    "repetitions": 2, "stylize": 0.5, "endless": False, "transfer": {"patch": 24, "order": "best-first"},
+    "repetitions": 2, "stylize": 0.5, "endless": False, "clip_steady": True, "transfer": {"patch": 24, "order": "best-first"},
     "strokes": [{"points": [[1, 2], [9, 8]], "kind": "both", "speed": 3}], "freeze": [{"points": [[4, 4], [5, 5]], "width": 3}],
 }  # fmt: skip
 
@@ -135,58 +135,6 @@ def test_its_panel_shows_every_number_and_what_to_press(picture):
     brush = {"stroke_speed", "stroke_local", "stroke_alpha", "proposal"}
     assert set(shown.properties) == set(type(moved.example).__annotations__) | brush
     assert {"stillwater.show_clip", "stillwater.pick_speed", "stillwater.propose_flow"} <= set(shown.operators)
-
-
-# -- presets
-
-PUBLISHED = {  # METHODS.md 2
-    "River": (254, 176, 12, 16, 0.1, 8, 4, 3, 3),
-    "Campfire": (360, 480, 40, 16, 0.4, 16, 4, 4, 3),
-    "Water_Surface": (500, 208, 20, 16, 0.2, 10, 8, 4, 3),
-    "Brook": (288, 384, 30, 16, 0.1, 8, 5, 7, 3),
-    "Waterfall": (405, 399, 30, 16, 0.1, 4, 8, 8, 3),
-    "Wide_Waterfall": (617, 224, 30, 16, 0.2, 8, 10, 4, 3),
-    "Smoke": (283, 307, 40, 16, 0.27, 14, 8, 8, 3),
-    "Thin_Smoke": (236, 314, 30, 16, 0.33, 14, 4, 7, 3),
-}
-
-
-def look(example) -> tuple:
-    return (example.refine_width, example.life, example.shutter, example.average_blur, *example.grid, example.repetitions)
-
-
-@pytest.mark.parametrize("path", files.paths("example"), ids=lambda path: path.stem)
-def test_presets_are_the_published_ones_and_scale_with_the_picture(extension, picture, path):
-    width, height, *numbers = PUBLISHED[path.stem]
-    picture.layers[0].motion.type = "example"
-    picture.picture_size = width, height
-    call("apply_preset", filepath=str(path))
-    assert look(now().layers[0].motion.example) == pytest.approx(tuple(numbers))
-    now().picture_size = 4 * width, 2 * height
-    call("apply_preset", filepath=str(path))
-    example, larger = now().layers[0].motion.example, 8**0.5
-    wide = [larger * numbers[0], numbers[1], numbers[2], larger * numbers[3], 4 * numbers[4], 2 * numbers[5], numbers[6]]
-    assert look(example) == pytest.approx(tuple(wide), rel=1e-5) and example.use_grid
-
-
-def test_there_is_a_preset_for_each():
-    assert {path.stem for path in files.paths("example") if files.is_shipped(path)} == set(PUBLISHED)
-
-
-def test_an_own_preset_says_for_which_size_it_is(scene, picture):
-    picture.layers[0].motion.type, picture.picture_size = "example", (400, 300)
-    example = picture.layers[0].motion.example
-    example.average_blur, example.use_grid, example.grid = 6, True, (8, 50)
-    call("save_preset", name="Mine for 400", of="MOTION")
-    path = next(path for path in files.paths("example") if path.stem.startswith("Mine_for"))
-    try:
-        now().picture_size = 800, 600
-        call("apply_preset", filepath=str(path))
-        example = now().layers[0].motion.example
-        assert example.average_blur == pytest.approx(12) and list(example.grid) == [16, 64]  # at most 64 cells
-        assert files.read(path).scaled((0, 0)) == files.read(path).numbers
-    finally:
-        path.unlink()
 
 
 # -- the clip

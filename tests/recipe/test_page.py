@@ -29,7 +29,7 @@ PAGE = [
     (Bob, dict(amount=1)),
     (Drift, dict(velocity=None, wind=0.5)),
     (Flow, dict(speed=1, period=60, refine=Refine(), outline=None)),
-    (Example, dict(clip_frames=None, life=16, transfer=Transfer(), **LOOK)),
+    (Example, dict(clip_frames=None, clip_steady=False, life=16, transfer=Transfer(), **LOOK)),
     (Library, dict(kinds=["fire"], speed_map=None, candidates=100, smoothness=1, dynamics=1, texture=1, **LOOK)),
     (Transfer, dict(patch=16, order="best-last")),
     (CloneStroke, dict(width=20, alpha=1)),

@@ -229,6 +229,7 @@ CHANGES = {
     "transfer": {"patch": 24},
     "clip_scale": 1.5,
     "clip_fps": 12,
+    "clip_steady": True,
     "endless": False,
     "stylize": 0.3,
     "outline": {"moving": True},
@@ -290,6 +291,23 @@ def test_a_clip_s_oddities_are_warnings(brook, tmp_path, clip):
     said = [event.sentence for event in made_ready(path)[1] if isinstance(event, Warn)]
     assert len(said) == 2 and all(sentence.startswith("layers[0].motion.clip: ") for sentence in said)
     assert "repeat the one before" in said[0] and "moves as one" in said[1]
+
+
+def test_frames_that_come_unevenly_are_told(brook, tmp_path, clip):
+    path = brook()
+    uneven = "select='not(eq(n,7)+eq(n,8)+eq(n,15))'"
+    command = ["ffmpeg", "-v", "error", "-y", "-i", clip, "-vf", uneven, "-fps_mode", "vfr", "-c:v", "libx264",
+               "-qp", "4", tmp_path / "clip.mp4"]  # fmt: skip
+    subprocess.run([*map(str, command)], check=True, timeout=60)
+    said = [event.sentence for event in made_ready(path)[1] if isinstance(event, Warn)]
+    assert said[0] == (
+        "layers[0].motion.clip: its frames come unevenly (up to 3 times as long after each other as they use to); taken as even"
+    )
+
+
+def test_a_clip_that_shakes_is_held_still_where_asked(brook):
+    said = [event.sentence for event in made_ready(brook(film(clip_steady=True)))[1] if isinstance(event, Warn)]
+    assert said[0].startswith("layers[0].motion.clip: held still; the camera shook by up to ")
 
 
 @pytest.mark.parametrize(

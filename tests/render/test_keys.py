@@ -148,6 +148,7 @@ TABLE = [
     (f"{FIRE}.motion.transfer", {"patch": 24}, ALL),
     (f"{FIRE}.motion.clip_scale", 2, ALL),
     (f"{FIRE}.motion.clip_fps", 30, ALL),
+    (f"{FIRE}.motion.clip_steady", True, ALL),
     (f"{FIRE}.motion.endless", False, ALL),
     (f"{FIRE}.motion.stylize", 0.5, ALL),
     (f"{FIRE}.motion.speed", keyed(8, 1, 2), {7, 8, 9, 10, 11, 12}),

@@ -62,6 +62,7 @@ class Example(_Look, tag="example", kw_only=True):
 
     clip: File
     clip_frames: choice(tuple[int, int] | None, "[first, last] of the clip, null = all") = None
+    clip_steady: choice(bool, "the clip's camera shakes, and is held still") = False
     life: whole("life time of a residual", "frames", ge=1, le=1000) = 16
     transfer: Transfer = Transfer()
 

@@ -13,6 +13,7 @@ SMALLEST = 32  # px a side
 WORK = 400  # bytes a pixel of the clip while it is taken apart, beside its frames; and for each frame
 FRAME, SUMS = 6, 1.5
 AS_ONE = 0.3  # of the pairs of frames
+UNEVEN = 1.5  # longest time between two frames, of the usual one
 REPEATED = 0.05  # of the usual change from frame to frame: less is no change
 
 
@@ -54,6 +55,11 @@ def read_frames(
         warnings.append(
             f"clip: {last - first + 1} frames of {clip.width} x {clip.height} are more than {memory / 1e6:.0f} MB hold;"
             f" taken at {width} x {height}"
+        )
+    if clip.longest_gap > UNEVEN:
+        warnings.append(
+            f"clip: its frames come unevenly (up to {clip.longest_gap:.3g} times as long after each other as they use to);"
+            f" taken as even"
         )
     frames = np.empty((last - first + 1, height, width, 3), np.float16)
     changes, before = [], None

@@ -31,6 +31,7 @@ class Film(msgspec.Struct, frozen=True):
     motion: str  # digest of all that does not change from frame to frame
     transfer: str
     taken: tuple[int, int] | None
+    steady: bool
     fps: float
     over_loop: float | None
 
@@ -39,11 +40,12 @@ def film_of(track: ExampleTrack, clip: str, fps: float) -> Film:
     """`clip`: the digest of its file."""
     example = track.example
     transfer = hashed([example.transfer, example.clip_scale])
-    return Film(clip, tuple(track.paintings), hashed(look_facts(example)), transfer, example.clip_frames, fps, track.over_loop)
+    return Film(clip, tuple(track.paintings), hashed(look_facts(example)), transfer, example.clip_frames, example.clip_steady, fps, track.over_loop)
 
 
 def clip_key(film: Film) -> str:
-    return hashed({"clip": film.clip, "frames": film.taken, "memory": MEMORY, "engine": [ENGINES["example"], ENGINES["clip"]]})
+    facts = {"clip": film.clip, "frames": film.taken, "steady": film.steady, "memory": MEMORY}
+    return hashed({**facts, "engine": [ENGINES["example"], ENGINES["clip"]]})
 
 
 def transfer_key(layers: str, index: int, film: Film) -> str:
@@ -60,7 +62,7 @@ def take_apart(document: Document, example: Example, place: str, beat: Callable[
 
     try:
         clip = clips.read_frames(str(document.locate(example.clip)), example.clip_frames, MEMORY, lambda share: beat())
-        found = clips.take_apart(clip, "dense", "medium", False, as_progress(beat))
+        found = clips.take_apart(clip, "dense", "medium", example.clip_steady, as_progress(beat))
     except engine.BadInput as error:
         raise RecipeError(f"{place}.{error}") from None
     except engine.FileError as error:
