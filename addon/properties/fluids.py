@@ -135,7 +135,7 @@ class STILLWATER_PG_example(bpy.types.PropertyGroup):
     refine_amount: refine_amount()
     shutter: FloatProperty(
         name="Shutter", description="How long details are smeared along the flow, where they stand still [s]", default=0.2,
-        min=0, max=100, soft_max=1, options=set(),
+        min=0, max=10, soft_max=1, options=set(),
     )
     average_blur: FloatProperty(
         name="Average Blur", description="How much of what stands still is blurred [px]", subtype="PIXEL", default=8, min=0,

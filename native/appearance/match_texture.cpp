@@ -13,7 +13,7 @@ namespace stillwater {
 namespace {
 
 constexpr int channels = 3;
-constexpr int smallest_side = 16, smallest_cell = 8, usual_cell = 55;
+constexpr int smallest_cell = 8, usual_cell = 55;
 constexpr int fewest_coefficients = 2, usual_coefficients = 4;  // a side of a cell, at the coarsest scale
 
 std::string shape(cv::Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
@@ -25,8 +25,8 @@ int cell_side(cv::Size picture, cv::Size grid) {
 
 void check_picture(std::string_view name, const Rgba& picture) {
   check::not_empty(name, picture);
-  if (std::min(picture.cols, picture.rows) < smallest_side)
-    throw BadInput(std::string(name) + ": " + shape(picture.size()) + " is not at least " + std::to_string(smallest_side) +
+  if (std::min(picture.cols, picture.rows) < smallest_matched_side)
+    throw BadInput(std::string(name) + ": " + shape(picture.size()) + " is not at least " + std::to_string(smallest_matched_side) +
                    " pixels a side");
   check::finite_colours(name, picture);
 }

@@ -19,6 +19,9 @@
 /// is not seen has the mean colour, so that its own changes nothing. A frame without alpha goes the fast way.
 namespace stillwater {
 
+/// A picture with a shorter side has too few details of any size to be matched, px.
+inline constexpr int smallest_matched_side = 16;
+
 enum class TextureMatching {
   steerable,  ///< for the final picture
   laplacian,  ///< for a quick look: no orientations

@@ -65,7 +65,8 @@ ExamplePlate::ExamplePlate(const Plate& plate, const ExampleSetup& setup, const 
       still_(std::all_of(velocities_.begin(), velocities_.end(), [](const Field& field) { return cv::countNonZero(field.reshape(1)) == 0; })) {
   parameters_.average.average_blur *= plate.scale;
   parameters_.grid = grid_of(setup.look, plate);
-  parameters_.matched = parameters_.matched && parameters_.repetitions > 0 && parameters_.stylize > 0;
+  const bool large = std::min(texture_.cols, texture_.rows) >= smallest_matched_side;
+  parameters_.matched = large && parameters_.matched && parameters_.repetitions > 0 && parameters_.stylize > 0;
   if (parameters_.matched) target_ = describe(texture_, {.grid = parameters_.grid, .matching = parameters_.matching});
   if (!look) return;
   check::same_size("look.base", look->base, "the layer", texture_);

@@ -17,7 +17,7 @@ struct LookParameters {
   MotionBlurParameters average;       ///< A'
   cv::Size grid = {0, 0};             ///< cells of the matching; 0 x 0: of about 55 px of the picture
   int repetitions = 3;                ///< 0: nothing is matched
-  bool matched = true;                ///< else the differences only get the picture's contrast
+  bool matched = true;                ///< else, and below smallest_matched_side, the differences only get the picture's contrast
   TextureMatching matching = TextureMatching::steerable;
   double stylize = 1;                 ///< 0..1
 };

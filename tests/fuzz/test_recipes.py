@@ -1,6 +1,7 @@
 """Random recipes, from the middle to the ends of every range: rendered or refused, never a crash, never a NaN."""
 
 import shutil
+import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -36,8 +37,34 @@ def parts(**fields):
 near = some.floats(-10, 34)
 far = number(-1e6, 1e6, 0)
 place = some.lists(some.one_of(near, near, far), min_size=2, max_size=2)
-line = some.tuples(place, place).map(list)
+line = some.tuples(place, place).filter(lambda ends: ends[0] != ends[1]).map(list)
 seed = some.integers(0, 2**53)
+
+flow_stroke = some.builds(
+    lambda start, steps, more: {"points": [start, *([start[0] + x, start[1] + y] for x, y in steps)]} | more,
+    some.tuples(near, near).map(list),
+    some.lists(some.tuples(some.sampled_from([-9, 5, 14]), some.floats(-12, 12)), min_size=1, max_size=3),
+    parts(kind=some.sampled_from(["both", "orientation", "speed"]), speed=number(0, 1000, 0, 2), local=some.booleans(),
+          alpha=number(0, 1, 1), width=number(0.1, 60, 10), frame=some.integers(-3, 4)),
+)
+strokes = some.lists(flow_stroke, min_size=1, max_size=4)
+fluid = dict(
+    refine=parts(width=number(0, 1000, 12), amount=number(0, 1)),
+    speed=animated(-1000, 1000, 0, 1),
+    freeze=some.lists(some.fixed_dictionaries({"points": some.lists(some.tuples(near, near).map(list), min_size=1, max_size=3)}), max_size=2),
+    outline=parts(moving=some.booleans(), persistence=number(0, 1, 0.9)),
+)
+flows = some.builds(
+    lambda strokes, more: {"type": "flow", "strokes": strokes} | more, strokes, parts(**fluid, period=number(0.001, 1e6, 1, 60))
+)
+film = parts(
+    **fluid, clip_frames=some.sampled_from([[1, 8], [2, 6], [1, 2], [5, 3]]), clip_steady=some.booleans(), life=some.sampled_from([1, 3, 5, 16]),
+    shutter=number(0, 10, 0.2), average_blur=number(0, 1000, 8), grid=some.sampled_from([None, [1, 1], [3, 2], [64, 64]]),
+    repetitions=some.integers(0, 3), matching=some.sampled_from(["steerable", "laplacian", "none"]), clip_scale=number(0.001, 100, 1, 0.25),
+    clip_fps=some.one_of(some.none(), number(1e-3, 1000, 24)), endless=some.booleans(), stylize=number(0, 1, 1),
+    transfer=parts(patch=some.sampled_from([4, 8, 128]), order=some.sampled_from(["best-last", "best-first"])),
+)  # fmt: skip
+films = some.builds(lambda strokes, more: {"type": "example", "clip": "clip.mp4", "strokes": strokes, "life": 4} | more, strokes, film)
 
 motions = some.one_of(
     parts().map(lambda m: {"type": "still"} | m),
@@ -62,6 +89,8 @@ motions = some.one_of(
     ),
     parts(wind=number(-1000, 1000, 0.5)).map(lambda m: {"type": "drift"} | m),
     some.tuples(number(-1e4, 1e4, 0, 1), number(-1e4, 1e4, 0)).map(lambda v: {"type": "drift", "velocity": list(v)}),
+    flows,
+    *([films] if shutil.which("ffmpeg") else []),  # without it there is no clip
 )  # fmt: skip
 
 mattes = some.one_of(
@@ -119,6 +148,10 @@ def pictures(tmp_path_factory):
     Image.fromarray((y // 6 + (x > 12)).astype(np.uint8)).save(folder / "labels.png")
     Image.fromarray(np.clip(255 * (6 - np.hypot(x - 12, y - 8)), 0, 255).astype(np.uint8)).save(folder / "soft.png")
     Image.new("L", (WIDTH, HEIGHT), 255).save(folder / "white.png")
+    if shutil.which("ffmpeg"):
+        coding = "ffmpeg -v error -y -f rawvideo -pix_fmt rgb24 -s 48x40 -r 24 -i - -c:v libx264 -qp 8 -pix_fmt yuv444p"
+        frames = random.integers(0, 256, (8, 40, 48, 3)).astype(np.uint8)
+        subprocess.run([*coding.split(), str(folder / "clip.mp4")], input=frames.tobytes(), check=True, timeout=60)
     return folder
 
 
@@ -143,13 +176,34 @@ def written():
     engine.write_frame = write
 
 
-@settings(max_examples=60, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+fluids = some.builds(
+    lambda motion, matte, more: {
+        "stillwater": 1, "picture": "picture.png", "frames": [1, 3], **more,
+        "layers": [{"name": "fluid", "matte": matte, "fill": {"method": "none"}, "motion": motion}, {"name": "back"}],
+    },
+    some.one_of(flows, *([films] if shutil.which("ffmpeg") else [])), mattes,
+    parts(fps=number(0.001, 1000, 24), loop=some.booleans(), output=parts(scale=some.sampled_from([0.001, 0.5, 1, 2.3]), layers=some.booleans())),
+)  # fmt: skip
+thorough = dict(derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+
+
+@settings(max_examples=60, **thorough)
 @given(recipe=recipes)
 def test_a_random_recipe_is_rendered_or_refused(pictures, written, recipe):
+    rendered_or_refused(pictures, written, recipe)
+
+
+@settings(max_examples=60, **thorough)
+@given(recipe=fluids)
+def test_a_random_fluid_is_rendered_or_refused(pictures, written, recipe):
+    rendered_or_refused(pictures, written, recipe)
+
+
+def rendered_or_refused(pictures, written, recipe):
     written.clear()
     with TemporaryDirectory() as name:
         folder = Path(name)
-        for picture in pictures.glob("*.png"):
+        for picture in pictures.iterdir():
             shutil.copy(picture, folder)
         try:
             list(render(parse(recipe, folder), Order()))

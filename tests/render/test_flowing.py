@@ -314,4 +314,4 @@ def test_a_small_preview_flows_as_the_large_one(brook, tmp_path):
 def test_what_only_the_picture_shows_to_be_wrong_is_said_before_any_frame(brook, tmp_path, change, sentence):
     with pytest.raises(RecipeError) as raised:
         list(render(load(brook(change)), Order()))
-    assert str(raised.value) == sentence and not list((tmp_path / "frames").glob("*.exr"))
+    assert str(raised.value) == sentence and not (tmp_path / "frames").exists()

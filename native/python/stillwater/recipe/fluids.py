@@ -46,7 +46,7 @@ class Flow(_Painted, tag="flow"):
 class _Look(_Painted):
     """What example and library share: the look of a fluid that comes from clips."""
 
-    shutter: number("motion blur of the approximated average", "s", ge=0, le=100) = 0.2
+    shutter: number("motion blur of the approximated average", "s", ge=0, le=10) = 0.2
     average_blur: number("blur of the approximated average (sigma)", "px", ge=0, le=1000) = 8.0
     grid: choice(Grid | None, "cells of the histogram matching; null = of about 55 px") = None
     repetitions: whole("rounds of the histogram matching", ge=0, le=20) = 3

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import _stillwater as engine
-from ..recipe import Document, Recipe
+from ..recipe import Document, Recipe, RecipeError
 from .cache import FOLDER, LIMIT, Cache, Prepared
 from .claim import claim_frames
 from .errors import Failed, Refused
@@ -180,7 +180,8 @@ def _frames(job: Job, movie: Movie | None, claim: Lock) -> Generator[Event, None
 
 @contextlib.contextmanager
 def _claim(job: Job) -> Iterator[Lock]:
-    """Makes the output folder and claims the frames in it."""
+    """Makes the output folder and claims the frames in it. Where only then something turns out to be wrong, it is not left."""
+    there = job.folder.exists()
     try:
         job.folder.mkdir(parents=True, exist_ok=True)
         claim = claim_frames(job.folder, job.recipe.output.name, job.first, job.last)
@@ -189,8 +190,14 @@ def _claim(job: Job) -> Iterator[Lock]:
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
             raise Failed(sentence) from None
         raise Refused(sentence) from None
-    with claim:
-        yield claim
+    try:
+        with claim:
+            yield claim
+    except RecipeError:
+        if not there:
+            with contextlib.suppress(OSError):  # frames of another worker are in it
+                job.folder.rmdir()
+        raise
 
 
 def frame_range(recipe: Recipe, order: Order) -> tuple[int, int]:
