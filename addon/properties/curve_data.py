@@ -100,11 +100,17 @@ def fill(curve, data: dict, picture, ids: dict[str, str], lost: Lost) -> None:
 def _fill_modifier(modifier, said: dict) -> None:
     for name, value in said.items():
         if name == "control_points":
-            for point in value:
-                made = modifier.control_points.add(point["frame"])
-                made.min, made.max = point["min"], point["max"]
+            _fill_envelope(modifier.control_points, value)
         elif name != "type":
             setattr(modifier, name, value)
+
+
+def _fill_envelope(points, said: list[dict]) -> None:
+    """All at once: after a number of a single point is set Blender reads behind it, as if it were the modifier, and may crash."""
+    for point in said:
+        points.add(point["frame"])
+    for name in ("min", "max"):
+        points.foreach_set(name, [point[name] for point in said])
 
 
 def _fill_driver(driver, said: dict, picture, ids: dict[str, str], lost: Lost) -> None:

@@ -115,11 +115,12 @@ std::tuple<py::array_t<float>, py::array_t<float>, py::array_t<float>> contrast(
 }
 
 ExampleSetup example_setup(const py::array& residuals, const FloatArray& patches, const std::vector<CloneStroke>& strokes,
-                           const TransferParameters& transfer, double reach, const MovingShares& moving,
+                           const TransferParameters& transfer, double reach, const std::optional<FloatArray>& moving,
                            const std::vector<FloatArray>& velocities,
                            const std::optional<FloatArray>& freeze, int life, bool endless, int period,
                            const LookParameters& look) {
-  ExampleSetup setup{as_half_frames(residuals, "residuals"), kept_alive(residuals), as_patches(patches), strokes, transfer, reach, moving, {}, {}, {}, look};
+  ExampleSetup setup{as_half_frames(residuals, "residuals"), kept_alive(residuals), as_patches(patches), strokes, transfer, reach, {}, {}, {}, {}, look};
+  if (moving) setup.moving = as_image<cv::Vec3f>(*moving, "moving").clone();
   for (const FloatArray& velocity : velocities) setup.velocities.push_back(as_image<cv::Vec2f>(velocity, "velocities").clone());
   if (freeze) setup.freeze = as_image<float>(*freeze, "freeze").clone();
   setup.carried.life = life;
@@ -170,7 +171,7 @@ void bind_example(py::module_& module) {
       .def_property_readonly("velocity", [](const ClipAnalysis& a) { return as_array(a.velocity); })
       .def_property_readonly("energy", [](const ClipAnalysis& a) { return as_array(a.energy); })
       .def_readonly("reach", &ClipAnalysis::reach)
-      .def_readonly("moving", &ClipAnalysis::moving)
+      .def_property_readonly("moving", [](const ClipAnalysis& found) { return as_array(found.moving); })
       .def_readonly("explained", &ClipAnalysis::explained);
   module.def("analyse_clip", &analyse, py::arg("frames").noconvert(), py::arg("flow"), py::arg("quality"),
              py::arg("progress") = Progress::Listener());
@@ -215,7 +216,7 @@ void bind_example(py::module_& module) {
            py::arg("grid") = Size{0, 0}, py::arg("repetitions"), py::arg("matching"), py::arg("stylize"));
   py::class_<ExampleSetup>(module, "ExampleSetup")
       .def(py::init(&example_setup), py::kw_only(), py::arg("residuals"), py::arg("patches"), py::arg("strokes"),
-           py::arg("transfer"), py::arg("reach"), py::arg("moving") = MovingShares{1, 1, 1}, py::arg("velocities"), py::arg("freeze"), py::arg("life"),
+           py::arg("transfer"), py::arg("reach"), py::arg("moving") = std::nullopt, py::arg("velocities"), py::arg("freeze"), py::arg("life"),
            py::arg("endless"), py::arg("period"), py::arg("look"));
   py::class_<ExampleLook>(module, "ExampleLook")
       .def(py::init(&look_of), py::arg("base"), py::arg("slope"), py::arg("hold"), py::arg("numbers"), py::arg("lengths"), py::arg("pixels"))

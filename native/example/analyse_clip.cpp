@@ -37,21 +37,6 @@ void take_off(HalfFrames& frames, const Rgb& average) {
   });
 }
 
-// Of frames spread over the clip, and of its average.
-MovingShares moving_shares(const std::vector<Plane>& differences, const Rgb& average, const Plane& energy) {
-  const MovingShares stands = band_squares(luma(average), energy);
-  MovingShares shares{};
-  for (const Plane& difference : differences) {
-    const MovingShares moves = band_squares(difference, energy);
-    for (int band = 0; band < share_bands; ++band) shares[band] += moves[band] / static_cast<double>(differences.size());
-  }
-  for (int band = 0; band < share_bands; ++band) {
-    const double all = shares[band] + stands[band];
-    shares[band] = all > 0 ? shares[band] / all : 1;
-  }
-  return shares;
-}
-
 /// Sums over all pixels of all residuals.
 struct Energies {
   double difference = 0, residual = 0;  ///< squares of D_i and of r_i, i > 0
@@ -145,7 +130,7 @@ ClipAnalysis analyse_clip(HalfFrames& frames, const AnalyseParameters& parameter
   ClipAnalysis found = residuals.summed();
   found.average = average;
   found.velocity = velocity;
-  found.moving = moving_shares(spread_out, average, found.energy);
+  found.moving = moving_shares(spread_out, luma(average), found.energy);
   return found;
 }
 

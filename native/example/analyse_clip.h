@@ -18,7 +18,7 @@ struct ClipAnalysis {
   Field velocity;  ///< v, px per frame
   Plane energy;    ///< of the residuals around each place: mean square of their luma
   double reach = 1;      ///< px: how far a residual is alike (exp(-d^2 / 2 reach^2) at the distance d), at least 0.5
-  MovingShares moving{};  ///< moving_share.h
+  Rgb moving;            ///< moving_shares()
   double explained = 0;  ///< share of the differences' energy that the flow predicts from frame to frame, at most 1
 };
 

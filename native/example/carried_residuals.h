@@ -54,6 +54,7 @@ class CarriedResiduals {
   CarriedResiduals(HalfFrames residuals, SourceMap map, const std::vector<Field>& velocities, const Parameters& parameters);
 
   cv::Size size() const { return map_.size(); }
+  const SourceMap& map() const { return map_; }
   int fields() const { return static_cast<int>(lines_.size()); }
   const Parameters& parameters() const { return parameters_; }
   int residuals() const { return residuals_.count(); }

@@ -180,6 +180,21 @@ Rgba SourceMap::gather(const Rgb& residual) const {
   return gathered;
 }
 
+Rgb SourceMap::mean(const Rgb& known) const {
+  Rgb mean(size_);
+  parallel_pixels(size_, [&](int y, int x) {
+    cv::Vec3f sum;
+    float all = 0;
+    for (const Taken& taken : at(y, x)) {
+      if (taken.weight == 0) break;
+      sum += taken.weight * bilinear(known, taken.x, taken.y);
+      all += taken.weight;
+    }
+    mean(y, x) = all > 0 ? sum / all : cv::Vec3f();
+  });
+  return mean;
+}
+
 SourceMap identical_map(cv::Size clip) {
   constexpr int side = 64;
   std::vector<PlacedPatch> patches;

@@ -54,6 +54,10 @@ class SourceMap {
   cv::Size size() const { return size_; }
   const Pixel& at(int y, int x) const { return pixels_[static_cast<size_t>(y) * size_.width + x]; }
 
+  /// What is known of each place of the clip as it lies on the picture: the mean of what a pixel takes; 0 where it takes
+  /// nothing. Bilinear; beyond the clip's sides mirrored.
+  Rgb mean(const Rgb& known) const;
+
   /// A frame of residuals as it lies on the picture, bilinear; beyond the clip's sides mirrored.
   Rgba gather(const Rgb& residual) const;
 

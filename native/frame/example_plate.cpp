@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "core/check.h"
@@ -43,6 +44,28 @@ cv::Size grid_of(const LookParameters& look, const Plate& plate) {
           along(look.grid.height, plate.box.height, plate.source.height())};
 }
 
+// How strong what of the detail does not stand is around each place, of all of it.
+Plane left_of(const Rgb& detail, const Rgb& standing, double around) {
+  const auto energy = [around](const Rgb& image) {
+    Plane squares(image.size());
+    parallel_pixels(image.size(), [&](int y, int x) { squares(y, x) = image(y, x).dot(image(y, x)); });
+    cv::GaussianBlur(squares, squares, cv::Size(), around, around, cv::BORDER_REFLECT);
+    return squares;
+  };
+  Plane all = energy(detail);
+  const Plane stands = energy(standing);
+  parallel_pixels(all.size(), [&](int y, int x) {
+    all(y, x) = all(y, x) > 0 ? std::sqrt(std::max(0.0f, 1 - stands(y, x) / all(y, x))) : 1;
+  });
+  return all;
+}
+
+Rgb times(const Rgb& image, const Plane& factor) {
+  Rgb product(image.size());
+  parallel_pixels(image.size(), [&](int y, int x) { product(y, x) = factor(y, x) * image(y, x); });
+  return product;
+}
+
 CarriedResiduals carried_over(const Plate& plate, const ExampleSetup& setup, const std::vector<Field>& velocities) {
   const MapPixels pixels{{plate.source.width(), plate.source.height()}, plate.scale, offset_in_box(plate)};
   return {setup.residuals, SourceMap(pixels, setup.patches, setup.strokes, setup.transfer, setup.reach), velocities,
@@ -80,6 +103,10 @@ double ExamplePlate::cell() const {
                                 static_cast<double>(texture_.rows) / parameters_.grid.height));
 }
 
+Rgb ExamplePlate::moving_here() const {
+  return moving_.empty() ? Rgb(texture_.size(), cv::Vec3f(1, 1, 1)) : carried_.map().mean(moving_);
+}
+
 ExampleLook ExamplePlate::make_look(Progress progress) const {
   progress.phase("averaging the picture", 0.1);
   const Rgb average = without_coverage(motion_blur(texture_, mean_velocity_, parameters_.average));
@@ -95,10 +122,9 @@ ExampleLook ExamplePlate::make_look(Progress progress) const {
   }
   const Rgb difference = without_coverage(texture_) - average;
   const LocalContrast contrast = local_contrast(difference, moments, coverage_of(plate_.source.pixels()), around_of_cell * cell());
-  const Rgb detail = difference - contrast.mean, standing = standing_part(detail, moving_, clip_pixel_);
-  const double all = cv::norm(detail, cv::NORM_L2SQR), stands = cv::norm(standing, cv::NORM_L2SQR);
-  const double moves = all > 0 ? std::sqrt(std::max(0.0, 1 - stands / all)) : 1;
-  ExampleLook look{average + contrast.mean + standing, contrast.slope * moves, contrast.hold, {}};
+  const Rgb detail = difference - contrast.mean, standing = standing_part(detail, moving_here(), clip_pixel_);
+  const Rgb slope = times(contrast.slope, left_of(detail, standing, around_of_cell * cell()));
+  ExampleLook look{average + contrast.mean + standing, slope, contrast.hold, {}};
   if (!parameters_.matched) return look;
   progress.phase("finding its texture", 0.4);
   for (int i = 0; i < moments_of_curves; ++i) {

@@ -30,7 +30,7 @@ struct ExampleSetup {
   std::vector<CloneStroke> strokes;    ///< likewise
   TransferParameters transfer;
   double reach = 1;                    ///< ClipAnalysis::reach
-  MovingShares moving{1, 1, 1};        ///< ClipAnalysis::moving
+  Rgb moving;                          ///< ClipAnalysis::moving; empty: all moves
   std::vector<Field> velocities;       ///< of the layer's box at the picture's scale, px per step of the clip, at least one
   Plane freeze;                        ///< of the box: 1 is held still; or empty
   CarriedResiduals::Parameters carried;
@@ -49,7 +49,7 @@ struct ExampleLook {
 ///
 ///     F'(s) = A' + mean C + standing C + slope luma(D'(s)), then matched to the picture's texture by the look's curves
 ///
-/// As much of the picture's detail stands as of the clip's does (moving_share.h).
+/// As much of the picture's detail stands as of the clip's does where it takes its residuals from (moving_share.h).
 /// Without an outline: the colours are those of extend_colours(), coverage is the still layer's. What is frozen shows the
 /// picture, and so does a layer whose flows stand everywhere.
 class ExamplePlate {
@@ -71,12 +71,13 @@ class ExamplePlate {
  private:
   friend class ExampleLayer;
 
+  Rgb moving_here() const;
   Rgba unmatched(const Rgb& differences, const ExampleLook& look) const;
   double cell() const;
 
   const Plate& plate_;
   LookParameters parameters_;
-  MovingShares moving_;
+  Rgb moving_;
   double clip_pixel_;  ///< px of the plate
   Rgba texture_;
   std::vector<Field> velocities_;

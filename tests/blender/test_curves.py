@@ -115,9 +115,10 @@ def test_a_curve_is_copied_whole(extension, scene, picture):
     noise.scale, noise.strength, noise.use_restricted_range = 3, 0.4, True
     noise.frame_start, noise.frame_end, noise.blend_in = 5, 25, 2
     envelope = curve.modifiers.new("ENVELOPE")
-    for frame, low, high in ((2, -1, 1), (30, -2, 2)):
-        point = envelope.control_points.add(frame)
-        point.min, point.max = low, high
+    for frame in (2, 30):
+        envelope.control_points.add(frame)
+    for name, values in (("min", (-1, -2)), ("max", (1, 2))):  # one by one Blender may crash: properties/curve_data.py
+        envelope.control_points.foreach_set(name, values)
     steps = curve.modifiers.new("STEPPED")
     steps.frame_step, steps.mute = 4, True
     generator = curve.modifiers.new("GENERATOR")

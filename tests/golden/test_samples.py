@@ -1,7 +1,8 @@
 """The samples, rendered small, look as they did: frames of each against a picture kept beside this file.
 
 A frame may differ from the kept one by 1 level of 255 in the mean (other processors compute to 1/1000, other libraries
-resize a little differently) and by more than 6 levels in one pixel of a hundred. After a wanted change
+resize a little differently) and by more than 6 levels in one pixel of a hundred; in six of a hundred where a layer flows like
+a clip, as which pieces of it lie where hangs on the optical flow of OpenCV's version (4.6 and 4.10: in four of them). After a wanted change
 `STILLWATER_UPDATE=1 bash tests/run.sh golden` keeps the new ones: look at them before they are committed.
 """
 
@@ -19,6 +20,7 @@ HERE = Path(__file__).parent
 SAMPLES = HERE.parents[1] / "blend_samples"
 FRAMES = (1, 20, 47)
 SCALE = 0.125
+FEW, FEW_OF_FILMS = 0.01, 0.06  # of the pixels
 
 
 def rendered(name, folder):
@@ -37,7 +39,8 @@ def test_sample(name, tmp_path):
         Image.fromarray(new).save(kept)
     assert kept.exists(), f"{kept.name} is not there: STILLWATER_UPDATE=1 bash tests/run.sh golden makes it"
     difference = np.abs(new.astype(int) - np.asarray(Image.open(kept)).astype(int))
-    if difference.mean() >= 1 or (difference.max(axis=2) > 6).mean() >= 0.01:
+    filmed = '"example"' in (SAMPLES / name / "recipe.json").read_text()
+    if difference.mean() >= 1 or (difference.max(axis=2) > 6).mean() >= (FEW_OF_FILMS if filmed else FEW):
         Image.fromarray(new).save(tmp_path / "new.png")
         pytest.fail(f"{name} looks different: {tmp_path / 'new.png'} against {kept} (mean {difference.mean():.2f} levels)")
 

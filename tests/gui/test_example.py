@@ -99,7 +99,7 @@ def test_what_is_drawn_on_clip_and_picture_is_a_pair(window):
 
 
 def test_a_source_is_drawn_on_the_clip_in_an_image_editor(window):
-    area = window.area("OUTLINER")
+    area = window.area("PROPERTIES")
     area.type = "IMAGE_EDITOR"
     yield from window.settle()
     call(window, "show_clip")
@@ -124,8 +124,10 @@ def test_a_source_is_drawn_on_the_clip_in_an_image_editor(window):
         assert np.hypot(*np.subtract(drawn()[1][end], TAKEN[end])) < 3, drawn()
     area.spaces.active.show_region_ui = True
     yield from window.settle()
+    next(region for region in area.regions if region.type == "UI").active_panel_category = "Stillwater"
+    yield from window.settle()
     yield from window.screenshot("64-image-editor")
-    area.type = "OUTLINER"
+    area.type = "PROPERTIES"
 
 
 def test_it_plays_like_the_clip(window):

@@ -109,7 +109,7 @@ def films_of(path: Path, folder: Path, frames: int):
     strokes = strokes_along(flow, mask)
     common = {"strokes": strokes, "refine": {"amount": 0}}
     example = {"type": "example", "clip": str(path.resolve()), "clip_frames": [1, half],
-               "clip_scale": size[0] / clip.width, **common}  # fmt: skip
+               "life": max(1, min(16, half - 2)), "clip_scale": size[0] / clip.width, **common}  # fmt: skip
     films = {
         "ours": recipe_film(folder / "ours", picture, mask, example, frames, fps),
         "live loop": recipe_film(folder / "loop", picture, mask, {"type": "flow", "period": PERIOD, **common}, frames, fps),

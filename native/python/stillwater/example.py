@@ -25,7 +25,7 @@ class ClipAnalysis:
             predict from the frame before.
         energy: height x width, mean square of the residuals' luma around each place.
         fps: frames per second, those that repeat another left out; 0 where the file does not say.
-        moving: shares of what is seen that moves, of detail finer than 1.5, 4 and 10 px.
+        moving: height x width x 3, share of what is seen around each place that moves, of detail finer than 1.5, 4 and 10 px.
         reach: px, the distance over which residuals are alike.
         explained: share of the differences' energy that the flow predicts from frame to frame, at most 1; below 0 the flow
             says less than none would.
@@ -36,7 +36,7 @@ class ClipAnalysis:
     velocity: NDArray[np.float32]
     residuals: NDArray[np.float16]
     energy: NDArray[np.float32]
-    moving: NDArray[np.float64]
+    moving: NDArray[np.float32]
     fps: float
     reach: float
     explained: float
@@ -82,7 +82,7 @@ def analyse(
     read = read_frames(os.fspath(clip), frames, memory * 1e6, reading)
     found = take_apart(read, flow, quality, steady, tell)
     return ClipAnalysis(  # fmt: skip
-        found.average, found.velocity, read.frames, found.energy, np.array(found.moving), read.fps, found.reach,
+        found.average, found.velocity, read.frames, found.energy, found.moving, read.fps, found.reach,
         found.explained, read.warnings,
     )
 

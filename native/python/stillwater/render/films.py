@@ -58,7 +58,7 @@ def look_key(layers: str, index: int, film: Film, scale: float) -> str:
 
 
 def take_apart(document: Document, example: Example, place: str, beat: Callable[[], None]) -> Prepared:
-    """The clip. Arrays average, velocity, energy, residuals; facts fps, reach, moving, explained, warnings. Throws RecipeError."""
+    """The clip. Arrays average, velocity, energy, moving, residuals; facts fps, reach, explained, warnings. Throws RecipeError."""
 
     try:
         clip = clips.read_frames(str(document.locate(example.clip)), example.clip_frames, MEMORY, lambda share: beat())
@@ -69,8 +69,8 @@ def take_apart(document: Document, example: Example, place: str, beat: Callable[
         raise RecipeError(f"{place}.clip: {error}") from None
     if len(clip.frames) <= example.life:
         raise RecipeError(f"{place}.life: {example.life} is not below the clip's {len(clip.frames)} frames")
-    arrays = {"average": found.average, "velocity": found.velocity, "energy": found.energy, "residuals": clip.frames}
-    facts = {"fps": clip.fps, "reach": found.reach, "moving": found.moving, "explained": found.explained, "warnings": clip.warnings}
+    arrays = {"average": found.average, "velocity": found.velocity, "energy": found.energy, "moving": found.moving, "residuals": clip.frames}
+    facts = {"fps": clip.fps, "reach": found.reach, "explained": found.explained, "warnings": clip.warnings}
     return Prepared(arrays, facts)
 
 
@@ -105,7 +105,7 @@ def setup(
         strokes=strokes,
         transfer=_transfer_parameters(example),
         reach=clip.facts["reach"],
-        moving=clip.facts["moving"],
+        moving=clip.arrays["moving"],
         velocities=[np.asarray(field) / np.float32(pace.steps) for field in fields],
         freeze=freeze,
         life=example.life,

@@ -26,9 +26,9 @@ ENGINES = {
     "bob": 1,
     "drift": 3,
     "flow": 2,
-    "clip": 2,
+    "clip": 3,
     "appearance": 1,
-    "example": 1,
+    "example": 2,
 }
 
 
