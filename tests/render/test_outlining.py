@@ -12,7 +12,7 @@ from stillwater import Live, RecipeError, linear_to_srgb, load
 from stillwater import _stillwater as engine
 from stillwater.render import outlines
 from stillwater.render.cache import FOLDER, Cache
-from stillwater.render.events import Preparing
+from stillwater.render.events import Preparing, Warn
 from stillwater.render.loop import Job, Order
 from stillwater.render.outlining import SPAN
 from stillwater.render.preview import prepare
@@ -193,6 +193,18 @@ def test_the_picture_s_own_alpha_has_the_outline(fire, tmp_path):
         image.save(tmp_path / "picture.png")
     frame = renderer(path).frame(20)
     assert np.abs(frame.layers[0][..., 3] - 200 / 255 * coverage(renderer(fire()).frame(20))).mean() < 0.005
+
+
+def test_with_nothing_painted_behind_it_is_warned(fire):
+    def said(**fields):
+        path = fire(lambda recipe: recipe["layers"][0].update(fill={"method": "none"}), **fields)
+        return [event.sentence for event in Job(load(path), Order()).check_files() if isinstance(event, Warn)]
+
+    assert said() == [
+        "layers[0].fill: none; where the moving outline leaves, the picture as it was is seen (exemplar or a file paints what is"
+        " behind)"
+    ]
+    assert said(outline={"moving": False}) == []
 
 
 def test_what_lasts_too_long_for_a_loop_is_said(fire):

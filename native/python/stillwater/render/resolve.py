@@ -11,12 +11,16 @@ import msgspec
 from ..recipe import Recipe
 from ..recipe.animation import Loop, Track, combine, ends_differ
 from ..recipe.fluids import Example, Flow
+from ..recipe.mattes import NoFill
 from ..recipe.parts import Keys
 from ..recipe.picture import Layer
 from ..recipe.stochastic import Bob, Drift, Ripple, Still, Sway
 from .filming import ExampleNow, ExampleTrack
 from .flowing import FlowNow, FlowTrack
 from .outlining import OutlineNow, OutlineTrack
+
+
+BARE = "none; where the moving outline leaves, the picture as it was is seen (exemplar or a file paints what is behind)"
 
 
 class WindNow(msgspec.Struct, frozen=True):
@@ -95,8 +99,14 @@ class Timeline:
         return self._along.integral(frame), self._away.integral(frame), self._along.over_loop()
 
     def warnings(self) -> list[str]:
-        """A sentence for each animated number that must be blended to close the loop."""
-        return [] if self.loop is None else list(_blended(self.recipe, self.loop))
+        """A sentence for each animated number that must be blended to close the loop, and for each outline that moves before
+        nothing but the picture."""
+        blended = [] if self.loop is None else list(_blended(self.recipe, self.loop))
+        return [*blended, *(f"layers[{i}].fill: {BARE}" for i, outline in enumerate(self.outlines) if outline and self._is_bare(i))]
+
+    def _is_bare(self, i: int) -> bool:
+        layer = self.recipe.layers[i]
+        return layer.matte is not None and isinstance(layer.fill, NoFill) and i + 1 < len(self.recipe.layers)
 
     def _track(self, number, component=None) -> Track:
         return Track.of(number, self.loop, component)
