@@ -136,7 +136,7 @@ def main() -> int:
     parser.add_argument("--frames", type=int, default=64)
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
-    header = "".join(f"{name:>22}" for name in [*MEASURES, "stuck (of the clip's)"])
+    header = "".join(f"{name:>22}" for name in [*MEASURES, "stuck (of the clip's)", "grid (of the pic.'s)", "flicker (of the c.'s)"])
     print(f"{'clip':32}{'film':18}{header}")
     nearer = True
     for path in given.clips:
@@ -148,7 +148,8 @@ def main() -> int:
         for name, film in films.items():
             film = film @ LUMA
             off[name] = [measure(film, grey, mask) for measure in MEASURES.values()]
-            numbers = "".join(f"{value:22.3f}" for value in [*off[name], figures.stuck(film, mask) / stuck])
+            besides = figures.stuck(film, mask) / stuck, figures.grid(film, real[0] @ LUMA, mask), figures.flicker(film, grey, mask)
+            numbers = "".join(f"{value:22.3f}" for value in [*off[name], *besides])
             print(f"{path.stem[:30]:32}{name:18}{numbers}", flush=True)
         nearer = nearer and all(a < b for a, b in zip(off["ours"], off["plain advection"], strict=True))
     print("ours is nearer than plain advection", "in each" if nearer else "but not in each")

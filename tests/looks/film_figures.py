@@ -7,6 +7,7 @@ import numpy as np
 import stillwater
 
 OCTAVES = 4
+CELL = 55  # px: about that of the histogram matching's grid
 
 
 def spectrum(film: np.ndarray, mask: np.ndarray) -> np.ndarray:
@@ -67,6 +68,34 @@ def stuck(film: np.ndarray, mask: np.ndarray) -> float:
     pairs = [(i, i + gap) for gap in (8, 16) for i in range(0, len(film) - gap, 4)]
     norms = np.linalg.norm(fine, axis=1)
     return float(np.mean([fine[i] @ fine[j] / max(norms[i] * norms[j], 1e-9) for i, j in pairs]))
+
+
+def grid(film: np.ndarray, picture: np.ndarray, mask: np.ndarray) -> float:
+    """How much neighbouring cells differ in their means and deviations, of how much the picture's own do: above 1 a grid
+    shows."""
+    return float(np.mean([_unlike(frame, mask) for frame in film[::8]]) / max(_unlike(picture, mask), 1e-9))
+
+
+def flicker(film: np.ndarray, real: np.ndarray, mask: np.ndarray) -> float:
+    """How much the cells' means change from frame to frame, of how much those of the real film do."""
+    ours, theirs = (np.array([_cells(frame, mask)[0] for frame in frames]) for frames in (film, real))
+    return float(np.nanmean(np.abs(np.diff(ours, axis=0))) / max(np.nanmean(np.abs(np.diff(theirs, axis=0))), 1e-9))
+
+
+def _unlike(frame: np.ndarray, mask: np.ndarray) -> float:
+    differences = [np.diff(statistic, axis=axis).ravel() for statistic in _cells(frame, mask) for axis in (0, 1)]
+    return float(np.nanmean(np.abs(np.concatenate(differences))))
+
+
+def _cells(frame: np.ndarray, mask: np.ndarray) -> np.ndarray:
+    """Mean and deviation of each cell of which the mask holds half or more, 2 x rows x columns; else NaN."""
+    rows, columns = (max(1, round(side / CELL)) for side in frame.shape)
+    found = np.full((2, rows, columns), np.nan)
+    for i, (band, seen) in enumerate(zip(np.array_split(frame, rows), np.array_split(mask, rows), strict=True)):
+        for j, (cell, inside) in enumerate(zip(np.array_split(band, columns, 1), np.array_split(seen, columns, 1), strict=True)):
+            if inside.mean() >= 0.5:
+                found[:, i, j] = cell[inside].mean(), cell[inside].std()
+    return found
 
 
 def _blurred(frame):

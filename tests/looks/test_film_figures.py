@@ -43,3 +43,22 @@ def test_only_the_masked_pixels_count():
     other = running(1)
     other[:, :, 44:] = running(2, 3, 5)[:, :, 44:]
     assert figures.spectrum_off(other, running(1), mask) < 1e-6
+
+
+def of_many_cells():
+    """Two by three of them, each another."""
+    film = np.tile(running(1), (1, 2, 2))
+    return film + np.linspace(0, 1, film.shape[2], dtype=np.float32), np.ones(film.shape[1:], bool)
+
+
+def test_a_grid_is_told_from_the_picture_s_own_differences():
+    film, mask = of_many_cells()
+    assert figures.grid(film, film[0], mask) == pytest.approx(1, abs=0.1)
+    checks = np.kron([[0, 1, 0], [1, 0, 1]], np.ones((64, 54)))[:, :160]
+    assert figures.grid(film + checks, film[0], mask) > 1.5
+
+
+def test_what_flickers_is_told():
+    film, mask = of_many_cells()
+    assert figures.flicker(film, film, mask) == pytest.approx(1)
+    assert figures.flicker(film + 0.2 * (np.arange(len(film)) % 2)[:, None, None], film, mask) > 2
