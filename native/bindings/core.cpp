@@ -1,6 +1,9 @@
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <optional>
+
 #include "bindings/rooms.h"
 #include "core/cpu.h"
 #include "core/parallel.h"
@@ -10,6 +13,14 @@
 namespace py = pybind11;
 
 namespace stillwater {
+namespace {
+
+// As a context manager.
+struct HeldInside {
+  std::unique_ptr<EndHeld> now;
+};
+
+}  // namespace
 
 void bind_core(py::module_& module) {
   module.def("set_threads", &set_threads, py::arg("threads"));
@@ -30,6 +41,10 @@ void bind_core(py::module_& module) {
       },
       py::arg("seconds"));
   module.def("process_runs", &process_runs, py::arg("id"));
+  py::class_<HeldInside>(module, "EndHeld")
+      .def(py::init<>())
+      .def("__enter__", [](HeldInside& held) { held.now = std::make_unique<EndHeld>(); })
+      .def("__exit__", [](HeldInside& held, const py::args&) { held.now.reset(); });
   py::class_<TemporaryFile>(module, "TemporaryFile")
       .def(py::init<const std::string&>(), py::arg("path"))
       .def("keep_as", &TemporaryFile::keep_as, py::arg("path"));

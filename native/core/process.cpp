@@ -43,7 +43,12 @@ std::mutex slot_mutex;
 
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+std::atomic<int> holders{0};
+constexpr int longest_hold = 100;  // ms
+
+// In a signal handler, on any thread but those that hold: sleeping is safe there.
 [[noreturn]] void leave(int code) {
+  for (int i = 0; i < longest_hold && holders > 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   for (int i = 0; i < slots; ++i)
     if (taken[i]) STILLWATER_UNLINK(paths[i]);
   std::_Exit(code);
@@ -178,6 +183,24 @@ bool process_runs(long id) {
   return kill(static_cast<pid_t>(id), 0) == 0 || errno == EPERM;
 #endif
 }
+
+// The thread that holds takes no signal: it would wait for itself.
+struct EndHeld::Mask {
+#if !defined(_WIN32)
+  Mask() {
+    sigset_t ours;
+    sigemptyset(&ours);
+    sigaddset(&ours, SIGINT);
+    sigaddset(&ours, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &ours, &before);
+  }
+  ~Mask() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
+  sigset_t before;
+#endif
+};
+
+EndHeld::EndHeld() : before_(std::make_unique<Mask>()) { ++holders; }
+EndHeld::~EndHeld() { --holders; }
 
 TemporaryFile::TemporaryFile(const std::string& path) : slot_(-1) {
   if (path.size() >= longest_path) throw BadInput("temporary file: its path is longer than 4095 bytes: " + path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,20 @@ std::optional<std::string> next_line(double seconds);
 
 /// True where a process of this id runs on this machine, whoever owns it.
 bool process_runs(long id);
+
+/// While one of these lives, the end of the process waits, a tenth of a second at most: for a file that exists already and is not
+/// registered yet.
+class EndHeld {
+ public:
+  EndHeld();
+  ~EndHeld();
+  EndHeld(const EndHeld&) = delete;
+  EndHeld& operator=(const EndHeld&) = delete;
+
+ private:
+  struct Mask;
+  std::unique_ptr<Mask> before_;
+};
 
 /// A file that the signal handler removes. At most 64 at a time, paths up to 4095 bytes; throws BadInput beyond.
 class TemporaryFile {

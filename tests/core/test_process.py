@@ -42,6 +42,39 @@ def test_a_signal_ends_the_process_at_once_and_cleans_up(busy, tmp_path, number,
     assert list(tmp_path.iterdir()) == []
 
 
+HELD = """
+import os, sys, time
+from stillwater import _stillwater as e
+e.install_signal_handler()
+with e.EndHeld():
+    open(sys.argv[1], "w").close()
+    print("made", flush=True)
+    time.sleep(0.05)
+    file = e.TemporaryFile(sys.argv[1])
+time.sleep(10)
+"""
+
+
+@pytest.mark.parametrize("number, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_file_that_is_just_made_is_cleaned_up_too(tmp_path, number, code):
+    process = subprocess.Popen([sys.executable, "-c", HELD, tmp_path / "lock"], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "made\n"
+    process.send_signal(number)
+    assert process.wait(10) == code
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_who_holds_for_ever_is_not_waited_for(tmp_path):
+    line = "e.end_with_standard_input(); held = e.EndHeld(); held.__enter__();"
+    program = START.format(path=str(tmp_path / "half.exr")) + line + BUSY
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stdin=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "busy\n"
+    start = time.monotonic()
+    process.stdin.close()
+    assert process.wait(10) == 143
+    assert time.monotonic() - start < 0.3 and list(tmp_path.iterdir()) == []
+
+
 def test_the_end_of_standard_input_ends_the_process(busy, tmp_path):
     process = busy("e.end_with_standard_input();", stdin=subprocess.PIPE)
     process.stdin.write("what is read is thrown away\n" * 100)

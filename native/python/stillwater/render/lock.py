@@ -44,13 +44,14 @@ class Lock:
 
     def take(self) -> bool:
         """Takes the lock, if no worker that lives has it. Throws OSError where the file can't be made."""
-        if not self._make():
-            if holder(self.path) is not None:
-                return False
-            self._clear_away()
+        with engine.EndHeld():
             if not self._make():
-                return False
-        self._file = engine.TemporaryFile(str(self.path))
+                if holder(self.path) is not None:
+                    return False
+                self._clear_away()
+                if not self._make():
+                    return False
+            self._file = engine.TemporaryFile(str(self.path))
         _ours.add(self._mark)
         return True
 
