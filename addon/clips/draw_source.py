@@ -12,14 +12,14 @@ from bpy.props import CollectionProperty
 
 from .. import strokes
 from . import editor
-from .operators import OfClip, example_layer
+from .operators import OnClip, example_layer
 from .places import under_mouse
 
 APART = 3  # px of the window, between the points of a line
 WIDTH = 20  # px of the picture, as the recipe's clone strokes have it where nothing is said
 
 
-class STILLWATER_OT_draw_clone_source(OfClip, bpy.types.Operator):
+class STILLWATER_OT_draw_clone_source(OnClip, bpy.types.Operator):
     """Draw on the clip, in an Image Editor or below the picture, along what is to be taken; the first goes to the first Clone Target"""
 
     bl_idname = "stillwater.draw_clone_source"
@@ -31,22 +31,13 @@ class STILLWATER_OT_draw_clone_source(OfClip, bpy.types.Operator):
     )
 
     def invoke(self, context, event):
-        picture = context.scene.stillwater.active()
-        try:
-            strokes.show_clip(picture, example_layer(picture))
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
         self._before = (-APART, -APART)
         editor.drawing.clear()
-        context.window.cursor_modal_set("PAINT_CROSS")
-        context.workspace.status_text_set(rpt_("Draw on the clip along what is to be taken; Esc: cancel"))
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        return self.begin(context, "PAINT_CROSS", rpt_("Draw on the clip along what is to be taken; Esc: cancel"))
 
     def modal(self, context, event):
         if event.type in {"ESC", "RIGHTMOUSE"}:
-            self._end(context)
+            self.end(context)
             return {"CANCELLED"}
         if not editor.drawing:
             if event.type != "LEFTMOUSE" or event.value != "PRESS":
@@ -59,12 +50,9 @@ class STILLWATER_OT_draw_clone_source(OfClip, bpy.types.Operator):
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             for place in editor.drawing:
                 self.path.add().loc = place
-            self._end(context)
+            self.end(context)
             return self.execute(context)
         return {"RUNNING_MODAL"}
-
-    def cancel(self, context):
-        self._end(context)
 
     def execute(self, context):
         picture = context.scene.stillwater.active()
@@ -94,11 +82,10 @@ class STILLWATER_OT_draw_clone_source(OfClip, bpy.types.Operator):
             editor.redraw()
         return place is not None
 
-    def _end(self, context) -> None:
+    def end(self, context) -> None:
         editor.drawing.clear()
         editor.redraw()
-        context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
+        super().end(context)
 
 
 CLASSES = [STILLWATER_OT_draw_clone_source]

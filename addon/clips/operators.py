@@ -50,6 +50,31 @@ class OfClip(OfExample):
         return True
 
 
+class OnClip(OfClip):
+    """One that waits for the mouse on the clip."""
+
+    def begin(self, context, cursor: str, hint: str) -> set[str]:
+        """Shows the clip and takes the mouse; `hint` stands in the status bar."""
+        picture = context.scene.stillwater.active()
+        try:
+            strokes.show_clip(picture, example_layer(picture))
+        except (ValueError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        context.window.cursor_modal_set(cursor)
+        context.workspace.status_text_set(hint)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def end(self, context) -> None:
+        """Gives the mouse back."""
+        context.window.cursor_modal_restore()
+        context.workspace.status_text_set(None)
+
+    def cancel(self, context):
+        self.end(context)
+
+
 class STILLWATER_OT_choose_clip(OfExample, bpy.types.Operator):
     """Choose the film whose fluid the layer looks and moves like; best from a camera that stands still"""
 

@@ -8,9 +8,9 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import FloatVectorProperty
 
-from .. import engine, strokes
+from .. import engine
 from ..ui import redraw
-from .operators import OfClip, example_layer
+from .operators import OnClip, example_layer
 from .places import under_mouse
 
 DIGITS = 3
@@ -29,7 +29,7 @@ def speed_at(scene, example, place: tuple[float, float]) -> float:
     return min((right**2 + down**2) ** 0.5 * example.clip_scale * clip_fps / fps, FASTEST)
 
 
-class STILLWATER_OT_pick_speed(OfClip, bpy.types.Operator):
+class STILLWATER_OT_pick_speed(OnClip, bpy.types.Operator):
     """Click on the clip, below the picture or in an Image Editor: the next strokes get the speed that it has there"""
 
     bl_idname = "stillwater.pick_speed"
@@ -41,20 +41,12 @@ class STILLWATER_OT_pick_speed(OfClip, bpy.types.Operator):
     )
 
     def invoke(self, context, event):
-        picture = context.scene.stillwater.active()
-        try:
-            strokes.show_clip(picture, example_layer(picture))
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        context.window.cursor_modal_set("EYEDROPPER")
-        context.workspace.status_text_set(rpt_("Click on the clip where it is as fast as the next strokes shall be; Esc: cancel"))
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        hint = rpt_("Click on the clip where it is as fast as the next strokes shall be; Esc: cancel")
+        return self.begin(context, "EYEDROPPER", hint)
 
     def modal(self, context, event):
         if event.type in {"ESC", "RIGHTMOUSE"}:
-            self._end(context)
+            self.end(context)
             return {"CANCELLED"}
         if event.type != "LEFTMOUSE" or event.value != "PRESS":
             return {"PASS_THROUGH"}  # the view may be moved meanwhile
@@ -63,12 +55,9 @@ class STILLWATER_OT_pick_speed(OfClip, bpy.types.Operator):
         if place is None:
             self.report({"WARNING"}, rpt_("Click on the clip: that place is beside it"))
             return {"RUNNING_MODAL"}
-        self._end(context)
+        self.end(context)
         self.place = place
         return self.execute(context)
-
-    def cancel(self, context):
-        self._end(context)
 
     def execute(self, context):
         scene, layer = context.scene, example_layer(context.scene.stillwater.active())
@@ -81,10 +70,6 @@ class STILLWATER_OT_pick_speed(OfClip, bpy.types.Operator):
         self.report({"INFO"}, rpt_("The next strokes say {speed:.3g} px/frame").format(speed=speed))
         redraw.panels()
         return {"FINISHED"}
-
-    def _end(self, context) -> None:
-        context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
 
 
 CLASSES = [STILLWATER_OT_pick_speed]

@@ -59,7 +59,7 @@ def read_frames(
     if clip.longest_gap > UNEVEN:
         warnings.append(
             f"clip: its frames come unevenly (up to {clip.longest_gap:.3g} times as long after each other as they use to);"
-            f" taken as even"
+            " taken as even"
         )
     frames = np.empty((last - first + 1, height, width, 3), np.float16)
     changes, before = [], None

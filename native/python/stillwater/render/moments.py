@@ -26,7 +26,7 @@ def motions_of(timeline: Timeline, now: Now, paces: list[Pace | None]) -> list:
 
 def motion_of(timeline: Timeline, i: int, layer: LayerNow, pace: Pace | None):
     """What moves one layer; None where nothing does."""
-    return _motion(layer.motion, timeline.flows[i] or timeline.films[i], pace)
+    return _motion(layer.motion, timeline.fluid(i), pace)
 
 
 def view_of(recipe: Recipe):

@@ -93,7 +93,7 @@ def _way(timeline: Timeline, i: int, digests: dict[str, str], box: tuple) -> Way
 def _outlined(timeline: Timeline, i: int, box: tuple) -> Outlined | None:
     if (outline := timeline.outlines[i]) is None or not min(box[2:]):
         return None
-    room = room_for(timeline.recipe.layers[i].motion, timeline.flows[i] or timeline.films[i], box)
+    room = room_for(timeline.recipe.layers[i].motion, timeline.fluid(i), box)
     return Outlined(room, tuple(outline.spans))
 
 
@@ -138,7 +138,7 @@ class Canvas:
         keys = keys_of(self.key, way, self.scale)
         if way.axes is not None:
             return [Step(keys[0], f"making {name} endless", lambda made, beat: self._endless(way, beat))]
-        paintings = (timeline.flows[way.layer] or timeline.films[way.layer]).paintings if way.fields else {}
+        paintings = timeline.fluid(way.layer).paintings if way.fields else {}
         steps = [
             Step(key, f"making {name} flow", lambda made, beat, of=paintings[digest]: self._field(way, of, place, beat))
             for key, digest in zip(keys, way.fields, strict=False)

@@ -94,6 +94,10 @@ class Timeline:
         )
         return Now(self._moment(frame), tuple(now))
 
+    def fluid(self, i: int) -> FlowTrack | ExampleTrack | None:
+        """The numbers of a layer that flows, with a clip or without; None where it does not."""
+        return self.flows[i] or self.films[i]
+
     def way(self, frame: int) -> tuple[float, float, float]:
         """The wind's way since frame 1 (right, away), and to the right in one loop, m/s x frames."""
         return self._along.integral(frame), self._away.integral(frame), self._along.over_loop()
@@ -124,14 +128,14 @@ class Timeline:
 
     def _outline(self, i: int, motion) -> OutlineTrack | None:
         """The outline of a layer where it moves: what stands still takes none along."""
-        track = self.flows[i] or self.films[i]
+        track = self.fluid(i)
         if track is None or not track.fastest or motion.outline is None or not motion.outline.moving:
             return None
         return OutlineTrack(motion.outline, track, self.loop, self.recipe.frames)
 
     def _motion(self, i: int, layer: Layer):
         """The layer's motion as a function of the frame."""
-        track = self.flows[i] or self.films[i]
+        track = self.fluid(i)
         if track is not None:
             return track.at
         if isinstance(layer.motion, Drift):
