@@ -129,6 +129,7 @@ void bind_picture(py::module_& module) {
       .def_property_readonly("frames", &Clip::frames)
       .def_property_readonly("fps", &Clip::fps)
       .def_property_readonly("longest_gap", &Clip::longest_gap)
+      .def_property_readonly("seen_transparent", &Clip::seen_transparent)
       .def_property_readonly("width", &Clip::width)
       .def_property_readonly("height", &Clip::height)
       .def(

@@ -31,6 +31,7 @@ struct Clip::State {
   VideoStream stream;
   int frames = 0;
   double longest_gap = 1;
+  bool seen_transparent = false;
   int decoded = 0;  ///< the frame the stream stands at
 };
 
@@ -58,6 +59,7 @@ Clip& Clip::operator=(Clip&&) noexcept = default;
 int Clip::frames() const { return state_->frames; }
 double Clip::fps() const { return state_->stream.fps(); }
 double Clip::longest_gap() const { return state_->longest_gap; }
+bool Clip::seen_transparent() const { return state_->seen_transparent; }
 int Clip::width() const { return state_->stream.width(); }
 int Clip::height() const { return state_->stream.height(); }
 
@@ -66,6 +68,7 @@ cv::Mat_<cv::Vec3f> Clip::frame(int number, int wanted_width, int wanted_height)
   check::size("size", wanted_width, wanted_height);
   state_->decode_up_to(number);
   const cv::Mat_<cv::Vec3f> stored = state_->stream.frame();
+  state_->seen_transparent = state_->seen_transparent || state_->stream.seen_transparent();
   const bool smaller = wanted_width <= stored.cols && wanted_height <= stored.rows;
   cv::Mat_<cv::Vec3f> resized;
   cv::resize(stored, resized, {wanted_width, wanted_height}, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);

@@ -28,6 +28,7 @@ class Clip {
   /// The longest time from one frame to the next, of the usual (median) one: above 1 where the rate is variable. 1 where
   /// the file doesn't say.
   double longest_gap() const;
+  bool seen_transparent() const;  ///< a frame that was read was, somewhere: it lies over black
   int width() const;
   int height() const;
 

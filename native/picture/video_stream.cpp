@@ -13,10 +13,12 @@ extern "C" {
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "picture/colour.h"
 #include "picture/openimageio.h"
 
 namespace stillwater {
@@ -79,6 +81,29 @@ int matrix_of(const AVFrame& frame) {
   }
 }
 
+bool is_transparent(const cv::Mat_<cv::Vec4f>& picture) {
+  return std::any_of(picture.begin(), picture.end(), [](const cv::Vec4f& pixel) { return pixel[3] < 1; });
+}
+
+// Straight display-referred colours, laid over black in linear light.
+cv::Mat_<cv::Vec3f> over_black(const cv::Mat_<cv::Vec4f>& straight) {
+  cv::Mat_<cv::Vec4f> pixels(straight.size());
+  parallel_rows(pixels.rows, 32, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < pixels.cols; ++x) {
+        const cv::Vec4f& in = straight(y, x);
+        pixels(y, x) = {in[0] * in[3], in[1] * in[3], in[2] * in[3], in[3]};
+      }
+      float* row = pixels[y][0].val;
+      display_to_scene(row, row, static_cast<size_t>(pixels.cols));
+      linear_to_srgb(row, row, 4 * static_cast<size_t>(pixels.cols));
+    }
+  });
+  cv::Mat_<cv::Vec3f> colours;
+  cv::cvtColor(pixels, colours, cv::COLOR_BGRA2BGR);
+  return colours;
+}
+
 }  // namespace
 
 struct VideoStream::State {
@@ -91,6 +116,7 @@ struct VideoStream::State {
   AVStream* stream = nullptr;
   int turns = 0;
   bool drained = false;
+  bool seen_transparent = false;
 
   State() = default;
   State(const State&) = delete;
@@ -197,28 +223,37 @@ bool VideoStream::advance() {
   }
 }
 
-cv::Mat_<cv::Vec3f> VideoStream::frame() const {
+bool VideoStream::seen_transparent() const { return state_->seen_transparent; }
+
+cv::Mat_<cv::Vec3f> VideoStream::frame() {
   State& state = *state_;
   const AVFrame& decoded = *state.decoded;
   const int wide = decoded.width, high = decoded.height;
   const auto format = static_cast<AVPixelFormat>(decoded.format);
   const AVPixFmtDescriptor* stored = av_pix_fmt_desc_get(format);
   const bool deep = stored && stored->comp[0].depth > 8;
+  const bool has_alpha = stored && stored->flags & AV_PIX_FMT_FLAG_ALPHA;
+  const AVPixelFormat plain = deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24;
+  const AVPixelFormat with_alpha = deep ? AV_PIX_FMT_RGBA64 : AV_PIX_FMT_RGBA;
   state.converter = sws_getCachedContext(
-      state.converter, wide, high, format, wide, high, deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24,
+      state.converter, wide, high, format, wide, high, has_alpha ? with_alpha : plain,
       SWS_BICUBIC | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr);
   if (!state.converter) throw FileError(state.path + ": its kind of pixels can't be converted");
   constexpr int one = 1 << 16;
   sws_setColorspaceDetails(state.converter, sws_getCoefficients(matrix_of(decoded)), has_full_range(decoded),
                            sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, one, one);
-  cv::Mat whole(high + 1, wide + spare, deep ? CV_16UC3 : CV_8UC3);
+  cv::Mat whole(high + 1, wide + spare, CV_MAKETYPE(deep ? CV_16U : CV_8U, has_alpha ? 4 : 3));
   unsigned char* rows[4] = {whole.data};
   const int strides[4] = {static_cast<int>(whole.step)};
   if (sws_scale(state.converter, decoded.data, decoded.linesize, 0, high, rows, strides) != high)
     throw FileError(state.path + ": its kind of pixels can't be converted");
-  cv::Mat_<cv::Vec3f> picture;
+  cv::Mat picture;
   whole(cv::Rect(0, 0, wide, high)).convertTo(picture, CV_32F, 1.0 / (deep ? deep_white : 255));
   if (deep) cv::min(picture, cv::Scalar::all(1), picture);
+  if (has_alpha) {
+    state.seen_transparent = state.seen_transparent || is_transparent(picture);
+    picture = over_black(picture);
+  }
   constexpr cv::RotateFlags turn[] = {cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180, cv::ROTATE_90_COUNTERCLOCKWISE};
   if (state.turns > 0) cv::rotate(picture, picture, turn[state.turns - 1]);
   return picture;

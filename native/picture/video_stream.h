@@ -34,8 +34,11 @@ class VideoStream {
   bool advance();
 
   /// The frame advance() decoded: display-referred red, green, blue, upright; the file's own range and primaries' matrix
-  /// (where it doesn't say: Rec. 709 from 720 rows on, else Rec. 601). Throws FileError.
-  cv::Mat_<cv::Vec3f> frame() const;
+  /// (where it doesn't say: Rec. 709 from 720 rows on, else Rec. 601). What is transparent lies over black, its alpha
+  /// taken as straight. Throws FileError.
+  cv::Mat_<cv::Vec3f> frame();
+
+  bool seen_transparent() const;  ///< a frame that frame() gave was, somewhere
 
  private:
   struct State;

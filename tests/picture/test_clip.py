@@ -100,6 +100,33 @@ def test_a_clip_that_was_filmed_with_the_camera_turned_is_upright(folder, tmp_pa
     np.testing.assert_allclose(read_clip(turned), upright / 255, atol=0.02)
 
 
+@pytest.mark.parametrize("pixels, coding, tolerance", [("rgba", "png", 1e-5), ("yuva444p10le", "prores_ks", 0.01)])
+def test_what_is_transparent_lies_over_black(tmp_path, pixels, coding, tolerance):
+    frames = np.empty((3, 48, 64, 4), np.uint8)
+    frames[..., :3] = (200, 120, 40)
+    frames[..., 3] = np.linspace(0, 255, 64).round()
+    (tmp_path / "raw.rgba").write_bytes(frames.tobytes())
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", "64x48", "-r", "25", "-i", tmp_path / "raw.rgba"]
+    ffmpeg(*raw, "-pix_fmt", pixels, "-c:v", coding, tmp_path / "clip.mov")
+    straight = frames[..., :3] / 255
+    linear = np.where(straight <= 0.04045, straight / 12.92, ((straight + 0.055) / 1.055) ** 2.4) * (frames[..., 3:] / 255)
+    shown = np.where(linear <= 0.0031308, linear * 12.92, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055)
+    clip = engine.Clip(str(tmp_path / "clip.mov"))
+    assert not clip.seen_transparent
+    np.testing.assert_allclose(clip.frame(2, 64, 48), shown[1], atol=tolerance)
+    assert clip.seen_transparent
+
+
+def test_a_clip_with_an_alpha_that_is_full_everywhere(tmp_path):
+    (tmp_path / "raw.rgba").write_bytes(np.full((3, 48, 64, 4), 255, np.uint8).tobytes())
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", "64x48", "-r", "25", "-i", tmp_path / "raw.rgba"]
+    for coding in (["-pix_fmt", "rgba", "-c:v", "png"], ["-pix_fmt", "yuva444p10le", "-c:v", "prores_ks"]):
+        ffmpeg(*raw, *coding, tmp_path / "clip.mov")
+        clip = engine.Clip(str(tmp_path / "clip.mov"))
+        np.testing.assert_allclose(clip.frame(1, 64, 48), 1, atol=0.005)
+        assert not clip.seen_transparent
+
+
 def test_a_file_without_video(tmp_path):
     ffmpeg("-f", "lavfi", "-i", "sine=duration=1", tmp_path / "tone.mp4")
     with pytest.raises(OSError, match="tone.mp4: holds no video$"):

@@ -305,6 +305,15 @@ def test_frames_that_come_unevenly_are_told(brook, tmp_path, clip):
     )
 
 
+def test_a_clip_that_is_transparent_is_told(brook, tmp_path, clip):
+    path = brook()
+    command = ["ffmpeg", "-v", "error", "-y", "-i", clip, "-vf", "format=rgba,geq=r='p(X,Y)':g='p(X,Y)':b='p(X,Y)':a='128+X'",
+               "-c:v", "png", "-f", "mov", tmp_path / "clip.mp4"]  # fmt: skip
+    subprocess.run([*map(str, command)], check=True, timeout=60)
+    said = [event.sentence for event in made_ready(path)[1] if isinstance(event, Warn)]
+    assert said[0] == "layers[0].motion.clip: it is transparent in places; it is taken over black"
+
+
 def test_a_clip_that_shakes_is_held_still_where_asked(brook):
     said = [event.sentence for event in made_ready(brook(film(clip_steady=True)))[1] if isinstance(event, Warn)]
     assert said[0].startswith("layers[0].motion.clip: held still; the camera shook by up to ")

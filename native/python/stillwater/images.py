@@ -93,7 +93,7 @@ def read_clip(
         size: (width, height) in pixels; None is the clip's. Smaller ones are averaged over areas.
 
     Returns:
-        frames x height x width x 3, display-referred.
+        frames x height x width x 3, display-referred; what is transparent lies over black.
 
     Raises:
         OSError: the file is missing, not a clip, or can't be decoded.

@@ -70,6 +70,8 @@ def read_frames(
             changes.append(float(np.abs(frame - before).mean()))
         frames[number - first] = frame
         before = frame
+    if clip.seen_transparent:
+        warnings.append("clip: it is transparent in places; it is taken over black")
     usual = float(np.percentile(changes, 75))
     repeats = [i + 1 for i, change in enumerate(changes) if change <= REPEATED * usual]
     if usual == 0 or len(frames) - len(repeats) < FEWEST:

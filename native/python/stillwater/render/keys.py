@@ -26,7 +26,7 @@ ENGINES = {
     "bob": 1,
     "drift": 3,
     "flow": 2,
-    "clip": 3,
+    "clip": 4,
     "appearance": 1,
     "example": 2,
 }
